@@ -1,0 +1,1 @@
+"""Reproduction of published control papers, number by number."""
