@@ -1,0 +1,296 @@
+"""Ways to compare: a value and a printed text -> agrees yes, no or open, with strength and distances."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from typing import Any
+
+import flint
+import numpy as np
+
+from recontrol.claims.printed import Cell, Number, Printed, parse_mask
+from recontrol.claims.schema import Claim
+from recontrol.claims.values import (
+    Approx,
+    Certified,
+    Identity,
+    Membership,
+    Size,
+    Statement,
+    enclosure,
+    strength_of,
+    weakest,
+)
+from recontrol.errors import ValueContractError
+from recontrol.paper import Paper
+
+YES, NO, OPEN = "yes", "no", "open"
+
+
+@dataclass(frozen=True)
+class Entry:
+    """One compared cell: where, printed text, found midpoint (text), distances."""
+
+    place: str
+    printed: str
+    found: str
+    agrees: str
+    difference: float
+    units_in_last_place: float
+    digits: int
+    digits_printed: int
+
+
+@dataclass(frozen=True)
+class Outcome:
+    """Agreement of one value with one claim."""
+
+    agrees: str
+    strength: str
+    found: str
+    units_in_last_place: float | None = None
+    digits: int | None = None
+    entries: list[Entry] = field(default_factory=list)
+
+
+def compare(claim: Claim, how: str, value: Any, paper: Paper) -> Outcome:
+    """Hold `value` against the claim. Raises ValueContractError if the value does not suit the way to compare."""
+    if how == "none":
+        return Outcome("shown", _strength(value), describe(value))
+    if isinstance(value, Certified):
+        if how != "statement":
+            raise ValueContractError(f"a certificate answers compare: statement, not {how}")
+        return Outcome(YES if value.holds else OPEN, value.strength, value.why)
+    expected_type = {"identity": Identity, "size": Size, "statement": Statement, "membership": Membership}.get(how)
+    if expected_type is not None:
+        if not isinstance(value, expected_type):
+            raise ValueContractError(f"compare: {how} needs a {expected_type.__name__}, got {type(value).__name__}")
+        return {"identity": _identity, "size": _size, "statement": _statement, "membership": _membership}[how](
+            claim, value
+        )
+    if how == "range":
+        return _range(claim, value)
+    return _numeric(claim, how, value, claim.printed_value(paper))
+
+
+def combine(agreements: list[str], holds: str = "all") -> str:
+    """Yes, no or open of several parts that must hold in `all` or in `any`."""
+    decisive, other = (NO, YES) if holds == "all" else (YES, NO)
+    if decisive in agreements:
+        return decisive
+    return OPEN if OPEN in agreements else other
+
+
+def _numeric(claim: Claim, how: str, value: Any, printed: Printed) -> Outcome:
+    found = as_matrix(value, printed.shape)
+    mask = parse_mask(claim.entries, claim.except_, printed.shape)
+    entries, strengths = [], []
+    for i, j in zip(*np.nonzero(mask), strict=True):
+        entries.append(_entry(claim, how, printed.rows[i][j], found[i, j], f"{i + 1},{j + 1}", printed.exact))
+        strengths.append(_scalar_strength(found[i, j]))
+    return Outcome(
+        agrees=combine([entry.agrees for entry in entries]),
+        strength=weakest(strengths),
+        found=_matrix_text(
+            [
+                [describe(found[i, j]) if mask[i, j] else "." for j in range(printed.shape[1])]
+                for i in range(printed.shape[0])
+            ]
+        ),
+        units_in_last_place=max(entry.units_in_last_place for entry in entries),
+        digits=min(entry.digits for entry in entries),
+        entries=entries,
+    )
+
+
+def _entry(claim: Claim, how: str, cell: Cell, found: Any, place: str, exact: bool) -> Entry:
+    parts = _parts(cell, found)
+    agrees = combine([_agrees(claim, how, number, part, exact) for number, part in parts])
+    distances = [abs(_middle(part) - number.value) for number, part in parts]
+    units = [float(d / number.unit) for d, (number, _) in zip(distances, parts, strict=True)]
+    return Entry(
+        place=place,
+        printed=cell.text,
+        found=describe(found),
+        agrees=agrees,
+        difference=float(max(distances)),
+        units_in_last_place=max(units),
+        digits=min(_digits(number, d) for d, (number, _) in zip(distances, parts, strict=True)),
+        digits_printed=min(number.digits for number, _ in parts),
+    )
+
+
+def _parts(cell: Cell, found: Any) -> list[tuple[Number, Any]]:
+    if cell.imag is None:
+        if _is_complex(found):
+            raise ValueContractError(f"printed {cell.text!r} is real, the reading returned a complex value")
+        return [(cell.real, found)]
+    real, imag = real_and_imag(found)
+    return [(cell.real, real), (cell.imag, imag)]
+
+
+def _agrees(claim: Claim, how: str, number: Number, found: Any, exact: bool) -> str:
+    low, high = enclosure(found)
+    if how == "cut":
+        return _agrees_cut(number, low, high)
+    half = flint.fmpq(0) if exact else number.unit / 2
+    below, above = number.value - half, number.value + half
+    if how == "bound":
+        if claim.bound == "<=":
+            return YES if high <= above else NO if low > above else OPEN
+        return YES if low >= below else NO if high < below else OPEN
+    if low >= below and high <= above:
+        return YES
+    return NO if high < below or low > above else OPEN
+
+
+def _agrees_cut(number: Number, low: Any, high: Any) -> str:
+    if number.value == 0:
+        if -number.unit < low and high < number.unit:
+            return YES
+        return NO if low >= number.unit or high <= -number.unit else OPEN
+    if number.value < 0:
+        low, high = -high, -low
+    size = abs(number.value)
+    if low >= size and high < size + number.unit:
+        return YES
+    return NO if high < size or low >= size + number.unit else OPEN
+
+
+def _range(claim: Claim, value: Any) -> Outcome:
+    assert claim.range is not None
+    below, above = (Number.parse(text).value for text in claim.range)
+    low, high = enclosure(value)
+    agrees = YES if low >= below and high <= above else NO if high < below or low > above else OPEN
+    return Outcome(agrees, strength_of(value), describe(value))
+
+
+def _statement(claim: Claim, value: Statement) -> Outcome:
+    margins = value.named()
+    if not margins:
+        raise ValueContractError("a statement without margins states nothing")
+    agreements = []
+    for margin in margins.values():
+        low, high = enclosure(margin)
+        holds = low > 0 or (not value.strict and low >= 0)
+        fails = high < 0 or (value.strict and high <= 0)
+        agreements.append(YES if holds else NO if fails else OPEN)
+    strength = weakest([strength_of(margin) for margin in margins.values()])
+    found = "; ".join(f"{name} = {describe(margin)}" for name, margin in margins.items())
+    return Outcome(combine(agreements, "any" if value.any else "all"), strength, found)
+
+
+def _identity(claim: Claim, value: Identity) -> Outcome:
+    from recontrol.claims.identity import equal
+
+    same = equal(value.left, value.right)
+    return Outcome(YES if same else NO, "exact", "equal" if same else "differs")
+
+
+def _size(claim: Claim, value: Size) -> Outcome:
+    words = (claim.printed or "").lower().replace("×", "x").split("x")
+    try:
+        rows, columns = (int(word) for word in words)
+    except ValueError:
+        raise ValueContractError(f"compare: size needs printed like '4x1', found {claim.printed!r}") from None
+    same = (rows, columns) == (value.rows, value.columns)
+    return Outcome(YES if same else NO, "exact", f"{value.rows}x{value.columns}")
+
+
+def _membership(claim: Claim, value: Membership) -> Outcome:
+    words = {True: "found", False: "proven impossible", None: "open"}[value.inside]
+    return Outcome({True: YES, False: NO, None: OPEN}[value.inside], value.strength, value.why or words)
+
+
+def as_matrix(value: Any, shape: tuple[int, int]) -> Any:
+    """Object array of scalars of the printed shape. Raises ValueContractError for another shape or type."""
+    if isinstance(value, Approx) and np.ndim(value.value):
+        values = np.asarray(value.value)
+        errors = np.broadcast_to(np.asarray(value.error, dtype=float), values.shape)
+        flat = [Approx(v.item(), e.item()) for v, e in zip(values.ravel(), errors.ravel(), strict=True)]
+        array = np.empty(len(flat), dtype=object)
+        array[:] = flat
+        value = array.reshape(values.shape)
+    elif not isinstance(value, np.ndarray):
+        array = np.empty((1, 1), dtype=object)
+        array[0, 0] = value
+        value = array
+    if value.dtype != object:
+        raise ValueContractError(f"an array of {value.dtype} carries no error bound; wrap it as Approx(value, error)")
+    if value.ndim == 1 and value.size == shape[0] * shape[1] and 1 in shape:
+        value = value.reshape(shape)
+    if value.shape != shape:
+        raise ValueContractError(f"the reading returned shape {value.shape}, the print has {shape}")
+    return value
+
+
+def real_and_imag(value: Any) -> tuple[Any, Any]:
+    """Real and imaginary part as scalars of the same strength."""
+    from flint import acb
+
+    if isinstance(value, acb):
+        return value.real, value.imag
+    if isinstance(value, Approx):
+        return Approx(complex(value.value).real, value.error), Approx(complex(value.value).imag, value.error)
+    return value, flint.fmpq(0)
+
+
+def _is_complex(value: Any) -> bool:
+    if isinstance(value, Approx):
+        return isinstance(value.value, complex)
+    return isinstance(value, flint.acb)
+
+
+def _scalar_strength(value: Any) -> str:
+    return strength_of(value)
+
+
+def _middle(scalar: Any) -> Any:
+    low, high = enclosure(scalar)
+    return (low + high) / 2
+
+
+def _digits(number: Number, distance: Any) -> int:
+    """Leading significant digits of the print with which a value at this distance agrees."""
+    for dropped in range(number.digits):
+        if distance <= number.unit * 10**dropped / 2:
+            return number.digits - dropped
+    return 0
+
+
+def _strength(value: Any) -> str:
+    if isinstance(value, (Membership, Certified)):
+        return value.strength
+    if isinstance(value, Statement):
+        return weakest([strength_of(margin) for margin in value.named().values()])
+    if isinstance(value, (Identity, Size)):
+        return "exact"
+    if isinstance(value, np.ndarray):
+        return weakest([strength_of(scalar) for scalar in value.ravel()])
+    return strength_of(value)
+
+
+def describe(value: Any, digits: int = 10) -> str:
+    """A value as short text: decimals to `digits` significant digits, balls and floats without false digits."""
+    if isinstance(value, np.ndarray):
+        return _matrix_text([[describe(cell, digits) for cell in row] for row in np.atleast_2d(value)])
+    if isinstance(value, Approx):
+        if np.ndim(value.value):
+            return _matrix_text([[f"{cell:.{digits}g}" for cell in row] for row in np.atleast_2d(value.value)])
+        if isinstance(value.value, complex):
+            return f"{value.value.real:.{digits}g}{value.value.imag:+.{digits}g}i"
+        return f"{float(value.value):.{digits}g}"
+    if isinstance(value, flint.acb):
+        return f"{describe(value.real, digits)}{'' if _middle(value.imag) < 0 else '+'}{describe(value.imag, digits)}i"
+    if isinstance(value, flint.arb):
+        return f"{float(value.mid()):.{digits}g}"
+    if isinstance(value, (flint.fmpq, flint.fmpz, int)):
+        exact = flint.fmpq(value)
+        return str(exact) if exact.q == 1 and abs(exact.p) < 10**digits else f"{int(exact.p) / int(exact.q):.{digits}g}"
+    if isinstance(value, Statement):
+        return "; ".join(f"{name} = {describe(margin)}" for name, margin in value.named().items())
+    return str(value)
+
+
+def _matrix_text(rows: list[list[str]]) -> str:
+    return "\n".join(" ".join(row) for row in rows)
