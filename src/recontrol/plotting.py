@@ -49,7 +49,7 @@ SERIES = (
     Series(TEAL, (0, (9, 2)), "v"),
 )
 
-STYLE: dict[str, Any] = {
+STYLE: dict[Any, Any] = {
     "font.family": "sans-serif",
     "font.sans-serif": ["DejaVu Sans"],  # shipped with matplotlib: the same glyphs on every machine
     "mathtext.fontset": "dejavusans",
