@@ -1,6 +1,6 @@
 """The three attitude axes as exact data.
 
-Artifact, one entry per axis ``yaw``, ``pitch-tf`` (default pitch, coefficient of (2)), ``pitch-ss`` (coefficient of (9)), ``roll``:
+Artifact, one entry per axis: ``yaw``, ``pitch-tf`` (default pitch, coefficient of (2)), ``pitch-ss`` ((9)), ``roll``.
 
 ======== ===================== ==============================================================
 key      shape                 what

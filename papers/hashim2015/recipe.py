@@ -11,21 +11,22 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
-from flint import acb, acb_poly, arb, arb_poly, ctx, fmpq, fmpq_poly
+from flint import acb, arb, arb_poly, fmpq, fmpq_poly
 
+from recontrol.exact.ball import precision
+from recontrol.exact.linalg import inverse
 from recontrol.exact.polynomial import (
     PRECISION,
     ackermann,
     charpoly,
-    flint_matrix,
     from_roots,
     left_roots,
-    object_matrix,
     place_estimator,
     real_part,
     reflect,
     spectral_factor,
 )
+from recontrol.exact.rational import identity
 
 CONTROL_WEIGHT = fmpq(1)
 
@@ -53,14 +54,6 @@ class Plant:
         return charpoly(self.A - self.B @ self.C) - self.a
 
 
-def eye(n: int) -> np.ndarray:
-    """Rational identity (n, n)."""
-    out = np.full((n, n), fmpq(0), dtype=object)
-    for i in range(n):
-        out[i, i] = fmpq(1)
-    return out
-
-
 def plant_of(model: dict[str, Any], axis: str) -> Plant:
     """The rational plant of one axis of the model artifact."""
     exact = model[axis]["exact"]
@@ -79,7 +72,7 @@ def controller_poly(plant: Plant, q: fmpq = CONTROL_WEIGHT) -> arb_poly:
 
 def controller_gain(plant: Plant, q: fmpq = CONTROL_WEIGHT) -> np.ndarray:
     """LQR gain K (1, n) in balls."""
-    with ctx.workprec(PRECISION):
+    with precision(PRECISION):
         return ackermann(plant.A, plant.B, controller_poly(plant, q))
 
 
@@ -117,13 +110,13 @@ def typed_poly(poles: list[tuple[fmpq, fmpq]]) -> fmpq_poly:
 
 def exact_poly(poles: list[acb]) -> arb_poly:
     """Real part of prod(s - p_i) for ball poles."""
-    with ctx.workprec(PRECISION):
-        return real_part(from_roots(poles)) if poles else real_part(acb_poly([1]))
+    with precision(PRECISION):
+        return real_part(from_roots(poles))
 
 
 @dataclass(frozen=True)
 class Reduced:
-    """Reduced compensator xc' = A xc + B m + B_u u, u = C xc + D m of the measured signal m, with A for u inserted.
+    """Reduced compensator xc' = A xc + B m + B_u u, u = C xc + D m of the measured signal m, with u inserted in A.
 
     L is its estimator gain (n-1, 1); the matrices follow (46)-(49) with the correct signs.
     """
@@ -152,19 +145,19 @@ def reduced_matrices(plant: Plant, K: np.ndarray, L: np.ndarray) -> Reduced:
 
 def reduced_design(plant: Plant, K: np.ndarray, p: Any) -> Reduced:
     """Reduced compensator whose error polynomial det(sI - A22 + L A12) is ``p`` (degree n-1)."""
-    with ctx.workprec(PRECISION):
+    with precision(PRECISION):
         _, A12, _, A22, *_ = partition(plant, K)
         return reduced_matrices(plant, K, place_estimator(A22, A12, p))
 
 
 def measured_basis(plant: Plant) -> np.ndarray:
     """T (n, n) whose first row is C: T = [C; e1; e3; e4], for pitch the states swapped."""
-    rows = [plant.C[0]] + [eye(plant.n)[i] for i in range(plant.n) if i != 1]
+    rows = [plant.C[0]] + [identity(plant.n)[i] for i in range(plant.n) if i != 1]
     return np.array(rows, dtype=object)
 
 
 def in_measured_basis(plant: Plant, K: np.ndarray) -> tuple[Plant, np.ndarray, np.ndarray]:
     """Plant and gain in the states T x, and T; then y is the first state and the premise of (28) holds."""
     T = measured_basis(plant)
-    inverse = object_matrix(flint_matrix(T).inv())
-    return Plant(T @ plant.A @ inverse, T @ plant.B, plant.C @ inverse), K @ inverse, T
+    back = inverse(T)
+    return Plant(T @ plant.A @ back, T @ plant.B, plant.C @ back), K @ back, T

@@ -14,12 +14,12 @@ Lr.exact .typed4   (n-1, 1)      reduced-order gain of the partition x1 | rest (
 full.exact .typed4 compensator   A = A-BK-LC, B = L, C = -K, D = 0, B_u = B; input y
 x1.exact, .typed4  compensator   correct (46)-(49), input x1; state xc = xh2 - L x1
 corrected          compensator   the same recipe in the states T x, input y; state xc = zh2 - L y
-balls              {...}         K, L, Lr, compensator matrices of the exact designs as balls
+balls              {...}         K, L (exact, typed4), x1 (exact, typed4), corrected as balls
 ================== ============= ================================================================
 
 A compensator is {A, B, C, D, B_u, L}: xc' = A xc + B m, u = C xc + D m for the measured signal m; if the plant
-input carries an additional known reference r (u = r + C xc + D m), then xc' gains B_u r. ``corrected`` also has T (n, n): with
-z = T x the first state z1 is y, and zh2 = xc + L y estimates (T x)[1:].
+input carries an additional known reference r (u = r + C xc + D m), then xc' gains B_u r. ``corrected`` also has
+T (n, n): with z = T x the first state z1 is y, and zh2 = xc + L y estimates (T x)[1:].
 """
 
 from __future__ import annotations
@@ -27,17 +27,12 @@ from __future__ import annotations
 from typing import Any
 
 import numpy as np
-from flint import ctx
 
+from recontrol.exact.ball import midpoint, precision
 from recontrol.exact.polynomial import PRECISION, ball_poly, left_roots, place_estimator
 
 from . import recipe
 from .model import AXES
-
-
-def floats(M: np.ndarray) -> np.ndarray:
-    """Midpoints of an object array of rationals or balls."""
-    return np.vectorize(float, otypes=[float])(M)
 
 
 def complexes(poles: list[Any]) -> np.ndarray:
@@ -49,20 +44,20 @@ def complexes(poles: list[Any]) -> np.ndarray:
 
 def compensator(M: recipe.Reduced) -> dict[str, np.ndarray]:
     """Float matrices of a reduced compensator."""
-    return {name: floats(getattr(M, name)) for name in ("A", "B", "C", "D", "B_u", "L")}
+    return {name: midpoint(getattr(M, name)) for name in ("A", "B", "C", "D", "B_u", "L")}
 
 
 def full_compensator(plant: recipe.Plant, K: np.ndarray, L: np.ndarray) -> dict[str, np.ndarray]:
     """Full-order compensator A - BK - LC, L, -K, 0 of the measured output y."""
-    with ctx.workprec(PRECISION):
+    with precision(PRECISION):
         Ah = plant.A - plant.B @ K - L @ plant.C
     return {
-        "A": floats(Ah),
-        "B": floats(L),
-        "C": floats(-K),
+        "A": midpoint(Ah),
+        "B": midpoint(L),
+        "C": midpoint(-K),
         "D": np.zeros((1, 1)),
-        "B_u": floats(plant.B),
-        "L": floats(L),
+        "B_u": midpoint(plant.B),
+        "L": midpoint(L),
     }
 
 
@@ -77,7 +72,7 @@ def axis_gains(plant: recipe.Plant, estimator_weight: Any) -> dict[str, Any]:
     K = recipe.controller_gain(plant)
     poles = recipe.estimator_poles(plant, estimator_weight)
     rounded = recipe.typed(poles)
-    with ctx.workprec(PRECISION):
+    with precision(PRECISION):
         L_exact = place_estimator(plant.A, plant.C, recipe.exact_poly(poles))
         L_typed = place_estimator(plant.A, plant.C, recipe.typed_poly(rounded))
     exact_error, typed_error = recipe.exact_poly(poles[: n - 1]), ball_poly(recipe.typed_poly(rounded[: n - 1]))
@@ -86,14 +81,19 @@ def axis_gains(plant: recipe.Plant, estimator_weight: Any) -> dict[str, Any]:
     measured, K_measured, T = recipe.in_measured_basis(plant, K)
     corrected = recipe.reduced_design(measured, K_measured, exact_error)
     return {
-        "K": floats(K),
+        "K": midpoint(K),
         "controller_poles": complexes(left_roots(recipe.lqr_spectrum(plant, recipe.CONTROL_WEIGHT))),
         "estimator_poles": complexes(poles),
         "estimator_typed": complexes(rounded),
-        "L": {"exact": floats(L_exact), "typed4": floats(L_typed)},
-        "Lr": {"exact": floats(x1.L), "typed4": floats(x1_typed.L)},
+        "L": {"exact": midpoint(L_exact), "typed4": midpoint(L_typed)},
+        "Lr": {"exact": midpoint(x1.L), "typed4": midpoint(x1_typed.L)},
         "full": {"exact": full_compensator(plant, K, L_exact), "typed4": full_compensator(plant, K, L_typed)},
         "x1": {"exact": compensator(x1), "typed4": compensator(x1_typed)},
-        "corrected": {**compensator(corrected), "T": floats(T)},
-        "balls": {"K": K, "L": L_exact, "x1": vars(x1), "corrected": vars(corrected)},
+        "corrected": {**compensator(corrected), "T": midpoint(T)},
+        "balls": {
+            "K": K,
+            "L": {"exact": L_exact, "typed4": L_typed},
+            "x1": {"exact": vars(x1), "typed4": vars(x1_typed)},
+            "corrected": vars(corrected),
+        },
     }

@@ -7,11 +7,16 @@ Everything returned encloses the true answer; a question that balls cannot decid
 
 from __future__ import annotations
 
+import itertools
 from collections.abc import Callable, Sequence
 from typing import Any
 
 import numpy as np
-from flint import acb, acb_mat, acb_poly, arb, arb_mat, arb_poly, ctx, fmpq, fmpq_mat, fmpq_poly
+from flint import acb, acb_poly, arb, arb_mat, arb_poly, fmpq, fmpq_poly
+
+from recontrol.exact.ball import has_balls, precision, to_ball
+from recontrol.exact.linalg import inverse
+from recontrol.exact.rational import to_fmpq_mat
 
 RationalOrBall = fmpq_poly | arb_poly
 PRECISION = 256
@@ -21,32 +26,13 @@ class RootError(ValueError):
     """A polynomial has a root on the axis that was to separate its roots."""
 
 
-def is_exact(M: np.ndarray) -> bool:
-    """True if every entry of the object array ``M`` is rational (``fmpq`` or ``int``)."""
-    return all(isinstance(x, (fmpq, int)) for x in np.ravel(M))
-
-
-def flint_matrix(M: np.ndarray) -> Any:
-    """``M`` (object array, two-dimensional) as ``fmpq_mat``, ``arb_mat`` or ``acb_mat``."""
-    rows = np.asarray(M, dtype=object).tolist()
-    if is_exact(M):
-        return fmpq_mat([[fmpq(x) for x in row] for row in rows])
-    if any(isinstance(x, acb) for x in np.ravel(M)):
-        return acb_mat([[acb(x) for x in row] for row in rows])
-    return arb_mat([[arb(x) for x in row] for row in rows])
-
-
-def object_matrix(M: Any) -> np.ndarray:
-    """A python-flint matrix as a two-dimensional object array."""
-    out = np.empty((M.nrows(), M.ncols()), dtype=object)
-    for i, row in enumerate(M.tolist()):
-        out[i, :] = row
-    return out
-
-
 def charpoly(M: np.ndarray) -> Any:
     """Characteristic polynomial det(sI - M), monic, exact for rational and enclosing for ball entries."""
-    return flint_matrix(M).charpoly()
+    return _flint(M).charpoly()
+
+
+def _flint(M: np.ndarray) -> Any:
+    return arb_mat(to_ball(M).tolist()) if has_balls(M) else to_fmpq_mat(M)
 
 
 def monic(p: Any) -> Any:
@@ -74,28 +60,23 @@ def degree_sorted(roots: Sequence[acb]) -> list[acb]:
     return sorted(roots, key=order)
 
 
-def roots(p: fmpq_poly, precision: int = PRECISION) -> list[acb]:
+def roots(p: fmpq_poly, bits: int = PRECISION) -> list[acb]:
     """Isolated roots of the rational polynomial ``p`` with multiplicity, sorted by `degree_sorted`."""
-    with ctx.workprec(precision):
+    with precision(bits):
         return degree_sorted([z for z, multiplicity in p.complex_roots() for _ in range(multiplicity)])
 
 
-def pair_order(poles: Sequence[acb]) -> list[acb]:
-    """Poles fastest first (alias of the order used for printed pole lists)."""
-    return degree_sorted(poles)
-
-
-def left_roots(p: fmpq_poly, precision: int = PRECISION) -> list[acb]:
+def left_roots(p: fmpq_poly, bits: int = PRECISION) -> list[acb]:
     """Roots of ``p`` with negative real part.
 
     Raises RootError if a root cannot be separated from the imaginary axis.
     """
     found = []
-    for z in roots(p, precision):
+    for z in roots(p, bits):
         if z.real < 0:
             found.append(z)
         elif not z.real > 0:
-            raise RootError(f"root {z} is not separated from the imaginary axis at {precision} bits")
+            raise RootError(f"root {z} is not separated from the imaginary axis at {bits} bits")
     return found
 
 
@@ -112,7 +93,7 @@ def real_part(p: acb_poly) -> arb_poly:
     return arb_poly([c.real for c in p.coeffs()])
 
 
-def spectral_factor(p: fmpq_poly, precision: int = PRECISION) -> arb_poly:
+def spectral_factor(p: fmpq_poly, bits: int = PRECISION) -> arb_poly:
     """Monic Hurwitz factor h of an even polynomial: p(s) = p_0 h(s) h(-s).
 
     The left roots of ``p`` are closed under conjugation, so the product is real and the real part of each
@@ -121,8 +102,8 @@ def spectral_factor(p: fmpq_poly, precision: int = PRECISION) -> arb_poly:
     """
     if any(c != 0 for c in p.coeffs()[1::2]):
         raise ValueError("a spectral factor needs an even polynomial, found an odd power")
-    with ctx.workprec(precision):
-        return real_part(from_roots(left_roots(p, precision)))
+    with precision(bits):
+        return real_part(from_roots(left_roots(p, bits)))
 
 
 def routh_column(p: RationalOrBall) -> list[Any]:
@@ -168,12 +149,12 @@ def is_hurwitz(p: RationalOrBall) -> bool | None:
 def sign_changes(column: Sequence[Any]) -> int:
     """Sign changes of a Routh column with nonzero entries: the number of roots in the right half plane."""
     signs = [1 if c > 0 else -1 for c in column]
-    return sum(a != b for a, b in zip(signs, signs[1:], strict=False))
+    return sum(a != b for a, b in itertools.pairwise(signs))
 
 
-def real_roots(p: fmpq_poly, precision: int = PRECISION) -> list[arb]:
+def real_roots(p: fmpq_poly, bits: int = PRECISION) -> list[arb]:
     """Distinct real roots of ``p``, ascending, as disjoint balls."""
-    with ctx.workprec(precision):
+    with precision(bits):
         found = [z.real for z, _ in p.complex_roots() if z.imag == 0]
     return sorted(found, key=lambda x: float(x.mid()))
 
@@ -198,15 +179,15 @@ def decide_end(holds: Callable[[fmpq], bool | None], inside: fmpq, outside: fmpq
 def ackermann(A: np.ndarray, B: np.ndarray, p: Any) -> np.ndarray:
     """Gain K (1, n) with det(sI - A + BK) = p(s), single input, by Ackermann's formula.
 
-    A (n, n) and B (n, 1) rational, ``p`` monic of degree n with rational or ball coefficients. Raises ZeroDivisionError if
-    (A, B) is not controllable. Source: Ackermann 1972; Franklin, Powell, Emami-Naeini, sec. 7.5.
+    A (n, n) and B (n, 1) rational, ``p`` monic of degree n with rational or ball coefficients. Raises SingularError
+    if (A, B) is not controllable. Source: Ackermann 1972; Franklin, Powell, Emami-Naeini, sec. 7.5.
     """
     n = A.shape[0]
     columns = [B]
     for _ in range(n - 1):
         columns.append(A @ columns[-1])
-    inverse = object_matrix(flint_matrix(np.hstack(columns)).inv())
-    row, gain = inverse[n - 1 :, :], 0
+    row: np.ndarray = inverse(np.hstack(columns))[n - 1 :, :]
+    gain: Any = 0
     for c in p.coeffs():
         gain = gain + row * c
         row = row @ A
