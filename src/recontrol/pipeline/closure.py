@@ -1,0 +1,112 @@
+"""Which source files a stage loads: the transitive closure of imports, found without running anything.
+
+Snakemake does not see edits of imported modules. Each rule therefore lists as input every file of src/ and of the paper
+folder that its own stage and all earlier stages of the paper may import, function-level imports included.
+"""
+
+from __future__ import annotations
+
+import ast
+from functools import cache
+from pathlib import Path
+
+ORDER = ("model", "synthesis", "certificates", "simulation")
+"""Stages whose artifacts later stages read, in their order."""
+
+MODULES = {
+    "model": "model",
+    "synthesis": "synthesis",
+    "certificates": "certificates",
+    "simulation": "simulation",
+    "figure": "figures",
+    "verdicts": "readings",
+    "quantities": "quantities",
+}
+"""Stage -> module of the paper folder that holds its functions."""
+
+COMMANDS = dict.fromkeys(ORDER, "stage") | {
+    "figure": "figure",
+    "verdicts": "verdicts",
+    "quantities": "quantities",
+}
+"""Stage -> module of recontrol.pipeline that runs it."""
+
+
+def code_of(stage: str, paper: str, root: Path | str = ".") -> list[str]:
+    """Files, relative to `root`, that `stage` of `paper` and all earlier stages load, and the runner's own."""
+    base = Path(root).resolve()
+    earlier = ORDER[: ORDER.index(stage) + 1] if stage in ORDER else (*ORDER, stage)
+    modules = {f"papers.{paper}.{MODULES[name]}" for name in earlier}
+    modules |= {f"recontrol.pipeline.{COMMANDS[name]}" for name in earlier} | {"recontrol.pipeline.__main__"}
+    return files_of(frozenset(modules), base)
+
+
+@cache
+def files_of(modules: frozenset[str], base: Path) -> list[str]:
+    """Transitive closure of `modules`, as sorted paths relative to `base`. Modules outside the tree are left out."""
+    seen: dict[str, Path] = {}
+    waiting = sorted(modules)
+    while waiting:
+        module = waiting.pop()
+        path = find(module, base)
+        if path is None or module in seen:
+            continue
+        seen[module] = path
+        waiting += _imports(path, module, base)
+    return sorted(path.relative_to(base).as_posix() for path in set(seen.values()))
+
+
+def find(module: str, base: Path) -> Path | None:
+    """File of a module of this tree, or None."""
+    root = base / "src" if module.split(".")[0] == "recontrol" else base if module.startswith("papers.") else None
+    if root is None:
+        return None
+    stem = root.joinpath(*module.split("."))
+    for path in (stem.with_suffix(".py"), stem / "__init__.py"):
+        if path.is_file():
+            return path
+    return None
+
+
+@cache
+def _imports(path: Path, module: str, base: Path) -> list[str]:
+    try:
+        tree = ast.parse(path.read_text(encoding="utf-8"), filename=str(path))
+    except SyntaxError:
+        return []
+    package = module if path.name == "__init__.py" else module.rpartition(".")[0]
+    found: list[str] = []
+    for node in ast.walk(tree):
+        if isinstance(node, ast.Import):
+            for alias in node.names:
+                found += _with_parents(alias.name)
+        elif isinstance(node, ast.ImportFrom):
+            origin = node.module or ""
+            if node.level:
+                anchor = package.split(".")[: len(package.split(".")) - node.level + 1]
+                origin = ".".join([*anchor, *([origin] if origin else [])])
+            found += _with_parents(origin)
+            found += [f"{origin}.{alias.name}" for alias in node.names]
+    return [name for name in found if find(name, base)]
+
+
+def _with_parents(module: str) -> list[str]:
+    steps = module.split(".")
+    return [".".join(steps[: i + 1]) for i in range(len(steps))]
+
+
+def undeclared(loaded: dict[str, str], declared: list[str], root: Path | str = ".") -> list[str]:
+    """Modules of this tree that were really imported but are not in the declared closure.
+
+    loaded: module name -> file, as in sys.modules. Returns their paths relative to `root`.
+    """
+    base = Path(root).resolve()
+    known = set(declared)
+    surplus = set()
+    for file in loaded.values():
+        path = Path(file).resolve()
+        if path.suffix == ".py" and any(path.is_relative_to(base / top) for top in ("src", "papers")):
+            relative = path.relative_to(base).as_posix()
+            if relative not in known:
+                surplus.add(relative)
+    return sorted(surplus)

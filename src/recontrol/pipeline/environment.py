@@ -1,0 +1,29 @@
+"""Thread counts and kernel choice that make equal inputs give equal bytes on one machine."""
+
+from __future__ import annotations
+
+import os
+import platform
+
+THREADS = (
+    "OMP_NUM_THREADS",
+    "OPENBLAS_NUM_THREADS",
+    "MKL_NUM_THREADS",
+    "RAYON_NUM_THREADS",
+    "NUMEXPR_NUM_THREADS",
+    "VECLIB_MAXIMUM_THREADS",
+)
+
+
+def pin() -> None:
+    """Set the variables that are not set yet; must run before numpy is imported.
+
+    RAYON_NUM_THREADS is the one the interior-point solver listens to. OPENBLAS_CORETYPE fixes the kernel, whose choice
+    can flip a solver between `optimal` and `optimal_inaccurate`.
+    """
+    for name in THREADS:
+        os.environ.setdefault(name, "1")
+    if platform.machine() in ("x86_64", "AMD64"):
+        os.environ.setdefault("OPENBLAS_CORETYPE", "Haswell")
+    os.environ.setdefault("SOURCE_DATE_EPOCH", "0")
+    os.environ.setdefault("MPLBACKEND", "Agg")

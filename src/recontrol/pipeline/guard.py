@@ -1,0 +1,64 @@
+"""Before the chain runs: one run at a time, and no artifact is used that differs from its record."""
+
+from __future__ import annotations
+
+import fcntl
+import os
+import re
+import sys
+import uuid
+from pathlib import Path
+from typing import IO
+
+from recontrol.errors import RecontrolError
+from recontrol.pipeline import store
+
+LOCK = Path("run/lock")
+LOOKING = re.compile(
+    r"-[a-zA-Z]*n[a-zA-Z]*|--(dry-?run|lint|report|dag|rulegraph|filegraph|d3dag|list.*|summary|detailed-summary|"
+    r"unlock|delete-all-output|delete-temp-output|help|version|generate-unit-tests|print-compilation|containerize|"
+    r"cleanup-.*|archive)(=.*)?"
+)
+_held: list[IO[str]] = []
+
+
+def only_looking(arguments: list[str]) -> bool:
+    """True if the command line asks to show something rather than to build."""
+    return any(LOOKING.fullmatch(argument) for argument in arguments)
+
+
+def enter(arguments: list[str] | None = None) -> None:
+    """Take the lock of this working directory and set untrusted artifacts aside.
+
+    The lock is the kernel's (flock): it goes with the process that holds it, even if that is killed. Raises
+    RecontrolError in words if another run holds it. A command that only looks names the artifacts and touches nothing.
+    """
+    look = only_looking(sys.argv[1:] if arguments is None else arguments)
+    if not look:
+        _lock()
+    for path, reason in store.untrusted():
+        if look:
+            print(f"recontrol: {path} {reason}; a run will rebuild it", file=sys.stderr)
+        else:
+            print(f"recontrol: {path} {reason}; moved to {store.set_aside(path)}, will be rebuilt", file=sys.stderr)
+
+
+def _lock() -> None:
+    LOCK.parent.mkdir(parents=True, exist_ok=True)
+    file = LOCK.open("a+")
+    try:
+        fcntl.flock(file, fcntl.LOCK_EX | fcntl.LOCK_NB)
+    except OSError:
+        file.seek(0)
+        holder = file.read().strip()
+        file.close()
+        raise RecontrolError(
+            f"another run is going on in this directory (process {holder or 'unknown'}); "
+            "wait until it has finished, or stop it, then run the same command again"
+        ) from None
+    file.truncate(0)
+    file.write(str(os.getpid()))
+    file.flush()
+    _held.append(file)
+    os.environ["RECONTROL_RUN"] = uuid.uuid4().hex
+    Path("run/current").write_text(os.environ["RECONTROL_RUN"])

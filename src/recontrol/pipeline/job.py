@@ -1,0 +1,37 @@
+"""The frame around every job: load the paper, do the work, refuse undeclared modules, publish with provenance."""
+
+from __future__ import annotations
+
+import sys
+from collections.abc import Mapping
+from pathlib import Path
+
+from recontrol import paper as papers
+from recontrol.errors import StageError
+from recontrol.pipeline import closure, store
+from recontrol.pipeline.encode import sha256
+
+
+def publish(stage: str, key: str, part: str | None, contents: Mapping[Path, bytes], inputs: list[Path]) -> None:
+    """Publish the artifacts of one job after checking that it imported only what its rule declared."""
+    declared = closure.code_of(stage, key)
+    loaded = {name: file for name, module in list(sys.modules.items()) if (file := getattr(module, "__file__", None))}
+    surplus = closure.undeclared(loaded, declared)
+    if surplus:
+        raise StageError(
+            f"stage {stage} of {key} imported {', '.join(surplus)}, which its rule does not declare as input; "
+            "import it by a plain import statement, so that an edit of it reruns the stage"
+        )
+    made_by = {
+        "paper": key,
+        "stage": stage,
+        "part": part,
+        "code": sha256("".join(f"{name} {sha256(Path(name).read_bytes())}\n" for name in declared).encode()),
+        "inputs": {path.as_posix(): store.digest_of(path) for path in inputs if store.record_path(path).exists()},
+    }
+    store.publish({path.as_posix(): content for path, content in contents.items()}, made_by)
+
+
+def open_paper(key: str) -> papers.Paper:
+    """papers/<key>, validated."""
+    return papers.load(Path("papers") / key)

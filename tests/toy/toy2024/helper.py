@@ -1,0 +1,3 @@
+"""What the synthesis needs and no earlier stage does."""
+
+FACTOR = 5

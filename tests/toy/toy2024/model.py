@@ -1,0 +1,5 @@
+"""The plant."""
+
+
+def model(data):
+    return {"a": data["a"]}

@@ -1,0 +1,20 @@
+"""The findings."""
+
+import numpy as np
+from flint import fmpq
+
+from recontrol.claims.values import Statement
+
+
+def gain(synthesis):
+    return synthesis["gain"]["k"]
+
+
+def matrix():
+    third = fmpq(1, 3)
+    return np.array([[fmpq(1), third], [third, fmpq(2)]], dtype=object)
+
+
+def stable(model, synthesis, case):
+    factor = {"slow": 1, "fast": 2}[case]
+    return Statement({"decay rate": synthesis["gain"]["k"] - factor * model["a"]})
