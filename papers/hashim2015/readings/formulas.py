@@ -9,6 +9,7 @@ from __future__ import annotations
 from types import SimpleNamespace
 
 import numpy as np
+
 from recontrol.claims.values import Identity
 
 from .symbols import stack, symbolic_charpoly, symbols

@@ -10,8 +10,8 @@ from typing import Any
 
 import numpy as np
 from flint import fmpq
-from recontrol.claims.values import Identity, Result
 
+from recontrol.claims.values import Identity, Result
 from recontrol.exact.polynomial import charpoly
 from recontrol.exact.rational import identity, matrix
 

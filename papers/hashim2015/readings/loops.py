@@ -1,0 +1,125 @@
+"""The compensated system (55)-(57) and the stability of the full-order loop."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+
+from recontrol.claims.values import Result, Size, Statement
+from recontrol.exact.ball import precision
+from recontrol.exact.polynomial import PRECISION, charpoly
+
+from ..recipe import Plant, plant_of
+from .support import full_loop, printed_gain, routh_margins, zeros
+
+HALF = 4
+
+
+def _embed(block: np.ndarray, row: int, column: int) -> np.ndarray:
+    """The block inside an 8 x 8 matrix of zeros, so that the claim's mask picks it."""
+    M = zeros(2 * HALF, 2 * HALF)
+    M[row : row + block.shape[0], column : column + block.shape[1]] = block
+    return M
+
+
+def _parts(model: Any, synthesis: Any) -> tuple[Plant, np.ndarray, np.ndarray, np.ndarray]:
+    balls = synthesis["gains"]["yaw"]["balls"]
+    return plant_of(model, "yaw"), balls["K"], balls["L"]["typed4"], balls["L"]["exact"]
+
+
+def eq55_11(model: Any, synthesis: Any) -> np.ndarray:
+    """A - BK as (26) has it."""
+    plant, K, *_ = _parts(model, synthesis)
+    with precision(PRECISION):
+        return _embed(plant.A - plant.B @ K, 0, 0)
+
+
+def eq55_11_twice(model: Any, synthesis: Any, data: Any) -> Result:
+    """A - 2BK: the closed loop A_c of (52) where (26) has A, so that K is fed back twice."""
+    plant, K, *_ = _parts(model, synthesis)
+    from_print = data["A_c"] - plant.B @ printed_gain(data)
+    with precision(PRECISION):
+        twice = plant.A - plant.B @ K - plant.B @ K
+    return Result(_embed(twice, 0, 0), evidence={"A_c - BK with the decimals of (52)": from_print[:1]})
+
+
+def eq55_12(model: Any, data: Any) -> np.ndarray:
+    """BK with the gains of (64), (65), anywhere in their boxes."""
+    plant = plant_of(model, "yaw")
+    K1 = np.empty((1, 1), dtype=object)
+    K1[0, 0] = data.ball("K1")
+    return _embed(plant.B @ np.hstack([K1, data.ball("K2")]), 0, HALF)
+
+
+def eq55_12_K(model: Any, synthesis: Any) -> np.ndarray:
+    """BK with K.q1."""
+    plant, K, *_ = _parts(model, synthesis)
+    return _embed(plant.B @ K, 0, HALF)
+
+
+def eq55_e16(model: Any, data: Any) -> Result:
+    """K2(1) from (52) and (6), anywhere in the box."""
+    plant = plant_of(model, "yaw")
+    box = plant.A[:1] - data.ball("A_c")[:1]
+    evidence = {
+        "K2(1) of (65), half-unit interval touches that of the print": [data["K2"][0, 0], data.half("K2")[0, 0]]
+    }
+    return Result(_embed(plant.B @ box, 0, HALF), evidence=evidence)
+
+
+def eq55_21() -> np.ndarray:
+    """The estimation error is not driven by the state."""
+    return zeros(2 * HALF, 2 * HALF)
+
+
+def eq55_22(model: Any, data: Any) -> np.ndarray:
+    """A - LC with (54), anywhere in its box."""
+    plant = plant_of(model, "yaw")
+    return _embed(plant.A - data.ball("L") @ plant.C, HALF, HALF)
+
+
+def eq55_22_typed4(model: Any, synthesis: Any) -> Result:
+    """A - BK - LC, the compensator's matrix, with L.typed4; the evidence lists what L.exact would give."""
+    plant, K, L, L_exact = _parts(model, synthesis)
+    with precision(PRECISION):
+        Ah, Ah_exact = (plant.A - plant.B @ K - gain @ plant.C for gain in (L, L_exact))
+    return Result(_embed(Ah, HALF, HALF), evidence={"with L.exact": Ah_exact})
+
+
+def eq55_22_exact(model: Any, synthesis: Any) -> np.ndarray:
+    """A - BK - LC with L.exact."""
+    plant, K, _, L = _parts(model, synthesis)
+    with precision(PRECISION):
+        return _embed(plant.A - plant.B @ K - L @ plant.C, HALF, HALF)
+
+
+def eq56_size(model: Any) -> Size:
+    """Plant and estimator have n states each."""
+    return Size(2 * plant_of(model, "yaw").n, 1)
+
+
+def eq57_size(model: Any) -> Size:
+    """Plant and estimator have n states each."""
+    return Size(1, 2 * plant_of(model, "yaw").n)
+
+
+def eq57_val(model: Any, data: Any) -> np.ndarray:
+    """[C 0], as many entries as are printed."""
+    C = plant_of(model, "yaw").C
+    return np.hstack([C, zeros(1, data["C_ce"].shape[1] - C.shape[1])])
+
+
+def abs_stable_full(model: Any, data: Any) -> Result:
+    """Plant with (64), (65), (54) and the compensator A - BK - LC, the decimals taken as exact."""
+    plant = plant_of(model, "yaw")
+    K = np.hstack([np.array([[data["K1"]]], dtype=object), data["K2"]])
+    M = full_loop(plant, K, data["L"], plant.A - plant.B @ K - data["L"] @ plant.C)
+    separated = charpoly(plant.A - plant.B @ K) * charpoly(plant.A - data["L"] @ plant.C)
+    evidence = {"characteristic polynomial is the product of controller and estimator": bool(charpoly(M) == separated)}
+    return Result(Statement(routh_margins(charpoly(M))), evidence=evidence)
+
+
+def ace_matrix(data: Any, case: str) -> np.ndarray:
+    """(55) with entry (6,5) as printed or one."""
+    return data["A_ce" if case == "ace-print" else "A_ce_one"]
