@@ -13,10 +13,14 @@ from recontrol.pipeline.closure import code_of, files_of
 
 environment.pin()
 os.environ["PATH"] = os.path.dirname(sys.executable) + os.pathsep + os.environ["PATH"]
-os.environ["PYTHONPATH"] = os.path.join(workflow.basedir, "src") + os.pathsep + os.path.abspath(".")
+os.environ["PYTHONPATH"] = (
+    os.path.join(workflow.basedir, "src") + os.pathsep + os.path.abspath(".")
+)
 
 try:
-    PAPERS = {key: paper_folders.load(f"papers/{key}") for key in paper_folders.discover()}
+    PAPERS = {
+        key: paper_folders.load(f"papers/{key}") for key in paper_folders.discover()
+    }
     if workflow.is_main_process:
         guard.enter()
 except RecontrolError as error:

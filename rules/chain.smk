@@ -9,7 +9,11 @@ def parts_of(key, stage):
     """Artifacts of one stage of one paper."""
     parts = PAPERS[key].parts(stage)
     made = [f"results/{key}/{stage}/{part}.json" for part in parts]
-    return made + [f"results/{key}/simulation/{part}.npz" for part in parts if stage == "simulation"]
+    return made + [
+        f"results/{key}/simulation/{part}.npz"
+        for part in parts
+        if stage == "simulation"
+    ]
 
 
 def before(*stages):
@@ -25,12 +29,19 @@ def before(*stages):
 
 
 def figures_of(key):
-    return [f"figures/{key}/{name}.{kind}" for name in PAPERS[key].file.figures for kind in ("svg", "pdf", "png", "csv")]
+    return [
+        f"figures/{key}/{name}.{kind}"
+        for name in PAPERS[key].file.figures
+        for kind in ("svg", "pdf", "png", "csv")
+    ]
 
 
 def every_artifact(key):
     """All artifacts of a paper, of every stage: deleting any of them makes the plain command rebuild it."""
-    found = [f"results/{key}/{name}.json" for name in ("model", "verdicts", "quantities", "review")]
+    found = [
+        f"results/{key}/{name}.json"
+        for name in ("model", "verdicts", "quantities", "review")
+    ]
     for stage in ("synthesis", "certificates", "simulation"):
         found += parts_of(key, stage)
     return found + figures_of(key)

@@ -39,10 +39,10 @@ rule collect:
         "results/verdicts.json",
     log:
         "run/log/collect.log",
-    message:
-        "verdicts of all papers"
     params:
         papers=list(PAPERS),
+    message:
+        "verdicts of all papers"
     shell:
         "python -m recontrol.pipeline collect {params.papers} > {log} 2>&1"
 
@@ -52,19 +52,26 @@ rule report:
     input:
         "results/verdicts.json",
         [f"results/{key}/quantities.json" for key in PAPERS],
-        [parts_of(key, stage) for key in PAPERS for stage in ("synthesis", "certificates")],
+        [
+            parts_of(key, stage)
+            for key in PAPERS
+            for stage in ("synthesis", "certificates")
+        ],
         [figures_of(key) for key in PAPERS],
-        [multiext(f"papers/{key}/", "paper.yaml", "claims.yaml", "NOTES.md") for key in PAPERS],
+        [
+            multiext(f"papers/{key}/", "paper.yaml", "claims.yaml", "NOTES.md")
+            for key in PAPERS
+        ],
         code=tools("recontrol.report"),
         templates=sorted(glob.glob("src/recontrol/report/**/*.*", recursive=True)),
     output:
         "results/report/index.html",
     log:
         "run/log/report.log",
-    message:
-        "report: results/report/index.html"
     params:
         papers=list(PAPERS),
+    message:
+        "report: results/report/index.html"
     shell:
         "python -m recontrol.report build {params.papers} > {log} 2>&1"
 
@@ -72,7 +79,11 @@ rule report:
 # Show every difference from the review; exit code 1 if there is one.
 rule check:
     input:
-        [f"results/{key}/{name}.json" for key in PAPERS for name in ("verdicts", "model")],
+        [
+            f"results/{key}/{name}.json"
+            for key in PAPERS
+            for name in ("verdicts", "model")
+        ],
         [figures_of(key) for key in PAPERS],
     params:
         papers=list(PAPERS),

@@ -84,10 +84,11 @@ def combine(agreements: list[str], holds: str = "all") -> str:
 def _numeric(claim: Claim, how: str, value: Any, printed: Printed) -> Outcome:
     found = as_matrix(value, printed.shape)
     mask = parse_mask(claim.entries, claim.except_, printed.shape)
-    entries, strengths = [], []
-    for i, j in zip(*np.nonzero(mask), strict=True):
+    places = list(zip(*(axis.tolist() for axis in np.nonzero(mask)), strict=True))
+    strengths = [strength_of(found[place]) for place in places]
+    entries = []
+    for i, j in places:
         entries.append(_entry(claim, how, printed.rows[i][j], found[i, j], f"{i + 1},{j + 1}", printed.exact))
-        strengths.append(_scalar_strength(found[i, j]))
     return Outcome(
         agrees=combine([entry.agrees for entry in entries]),
         strength=weakest(strengths),
@@ -239,10 +240,6 @@ def _is_complex(value: Any) -> bool:
     if isinstance(value, Approx):
         return isinstance(value.value, complex)
     return isinstance(value, flint.acb)
-
-
-def _scalar_strength(value: Any) -> str:
-    return strength_of(value)
 
 
 def _middle(scalar: Any) -> Any:
