@@ -65,9 +65,8 @@ def compare(claim: Claim, how: str, value: Any, paper: Paper) -> Outcome:
     if expected_type is not None:
         if not isinstance(value, expected_type):
             raise ValueContractError(f"compare: {how} needs a {expected_type.__name__}, got {type(value).__name__}")
-        return {"identity": _identity, "size": _size, "statement": _statement, "membership": _membership}[how](
-            claim, value
-        )
+        decide: Any = {"identity": _identity, "size": _size, "statement": _statement, "membership": _membership}[how]
+        return decide(claim, value)
     if how == "range":
         return _range(claim, value)
     return _numeric(claim, how, value, claim.printed_value(paper))

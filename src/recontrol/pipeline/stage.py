@@ -42,7 +42,7 @@ def pack_series(series: Mapping[str, Any], home: str) -> bytes:
     """Float arrays as .npz bytes, equal for equal content. Raises StageError for object or non-finite arrays."""
     import numpy as np
 
-    arrays = {}
+    arrays: dict[str, Any] = {}
     for name in sorted(series):
         array = np.asarray(series[name])
         if array.dtype.kind not in "bif":
