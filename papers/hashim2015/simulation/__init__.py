@@ -2,10 +2,11 @@
 
 from .limits import limits
 from .pitch import pitch
+from .published import published
 from .recovery import recovery
 from .regulator import regulator
 from .robustness import robustness
 from .steps import steps
 from .sweep import sweep
 
-__all__ = ["limits", "pitch", "recovery", "regulator", "robustness", "steps", "sweep"]
+__all__ = ["limits", "pitch", "published", "recovery", "regulator", "robustness", "steps", "sweep"]

@@ -1,7 +1,7 @@
 """Beyond the paper, the cheap part: LQG cost, what the roll zeros forbid, and designs made for the coprime radius.
 
-Values: E[y^2 + u^2] of the full-order compensators; step-tracking ISE of cheap control against its limit; Poisson bounds
-on the peak sensitivity of roll; coprime radius of unit-weight LQG and of loop shaping. No series.
+Values: E[y^2 + u^2] of the full-order compensators; step-tracking ISE of cheap control against its limit; Poisson
+bounds on the peak sensitivity of roll; coprime radius of unit-weight LQG and of loop shaping. No series.
 """
 
 from __future__ import annotations
@@ -33,7 +33,7 @@ def lqg_cost(plant: StateSpace, compensator: StateSpace) -> float:
 
     Infinite for a compensator with a direct term: white sensor noise then reaches u.
     """
-    n, m = plant.A.shape[0], compensator.A.shape[0]
+    m = compensator.A.shape[0]
     noise = np.block(
         [
             [math.sqrt(PROCESS_NOISE) * plant.B, math.sqrt(SENSOR_NOISE) * plant.B @ compensator.D],

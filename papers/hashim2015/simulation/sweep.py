@@ -1,7 +1,7 @@
 """Experiment 3: is q = 1 the best weight of 0.1..10? Step response of the LQR loop (reading S) over Q = q C'C and q I.
 
-Values: metrics at named weights, minimisers, what q = 1 loses, the front of (settling, overshoot) over mixed weights, the
-reference gain that gives q = 1 a unit final value. Series: settling time and overshoot over the sweep.
+Values: metrics at named weights, minimisers, what q = 1 loses, the front of (settling, overshoot) over mixed weights,
+the reference gain that gives q = 1 a unit final value. Series: settling time and overshoot over the sweep.
 """
 
 from __future__ import annotations
