@@ -61,8 +61,8 @@ def run(step, command, env=None):
     result = subprocess.run(command, env=env)
     if result.returncode:
         fail(
-            f"{step} failed (exit code {result.returncode}). If the network or the package index was the cause, run the "
-            "same command again; if a hash differs, the lock file or the download was altered"
+            f"{step} failed (exit code {result.returncode}). If the network or the package index was the cause, run "
+            "the same command again; if a hash differs, the lock file or the download was altered"
         )
 
 

@@ -27,17 +27,17 @@ unit() {
 
 build() {
     echo "== build of everything from nothing"
-    local folder
     folder="$(mktemp -d)"
-    git ls-files -z --cached --others --exclude-standard | xargs -0 cp --parents -t "$folder" 
+    trap 'rm -rf "$folder"' EXIT
+    git ls-files -z --cached --others --exclude-standard | xargs -0 cp --parents -t "$folder"
     (
         cd "$folder"
         export PYTHONPATH="$PWD/src:$PWD"
-        timeout 1200 snakemake --cores "$cores" all
+        timeout 1500 snakemake --cores "$cores" all
         snakemake --cores "$cores" all 2>&1 | grep -q 'Nothing to be done' || { echo "a second run is not idle" >&2; exit 1; }
         snakemake --cores "$cores" check
     )
-    rm -rf "$folder"
+    export RECONTROL_BUILT="$folder"
 }
 
 case "${1:-all}" in

@@ -29,7 +29,11 @@ YES, NO, OPEN = "yes", "no", "open"
 
 @dataclass(frozen=True)
 class Entry:
-    """One compared cell: where, printed text, found midpoint (text), distances."""
+    """One compared cell: where, printed text, found midpoint (text), distances.
+
+    enclosure: outward-rounded decimal ends (low, high) of the found value, one pair for each part of the cell (real; or
+    real and imaginary).
+    """
 
     place: str
     printed: str
@@ -39,6 +43,7 @@ class Entry:
     units_in_last_place: float
     digits: int
     digits_printed: int
+    enclosure: list[tuple[str, str]]
 
 
 @dataclass(frozen=True)
@@ -105,7 +110,8 @@ def _numeric(claim: Claim, how: str, value: Any, printed: Printed) -> Outcome:
 
 def _entry(claim: Claim, how: str, cell: Cell, found: Any, place: str, exact: bool) -> Entry:
     parts = _parts(cell, found)
-    agrees = combine([_agrees(claim, how, number, part, exact) for number, part in parts])
+    ends = [enclosure(part) for _, part in parts]
+    agrees = combine([agreement(claim, how, number, *end, exact) for (number, _), end in zip(parts, ends, strict=True)])
     distances = [abs(_middle(part) - number.value) for number, part in parts]
     units = [float(d / number.unit) for d, (number, _) in zip(distances, parts, strict=True)]
     return Entry(
@@ -117,6 +123,7 @@ def _entry(claim: Claim, how: str, cell: Cell, found: Any, place: str, exact: bo
         units_in_last_place=max(units),
         digits=min(_digits(number, d) for d, (number, _) in zip(distances, parts, strict=True)),
         digits_printed=min(number.digits for number, _ in parts),
+        enclosure=[(_decimal(low, down=True), _decimal(high, down=False)) for low, high in ends],
     )
 
 
@@ -129,8 +136,22 @@ def _parts(cell: Cell, found: Any) -> list[tuple[Number, Any]]:
     return [(cell.real, real), (cell.imag, imag)]
 
 
-def _agrees(claim: Claim, how: str, number: Number, found: Any, exact: bool) -> str:
-    low, high = enclosure(found)
+def _decimal(end: Any, down: bool, digits: int = 25) -> str:
+    """A rational rounded outward to a decimal of `digits` significant digits."""
+    if end == 0:
+        return "0"
+    exponent = digits - len(str(abs(int(end.p)) // int(end.q))) if abs(end) >= 1 else digits + _leading_zeros(end)
+    scaled = end * flint.fmpq(10) ** exponent
+    mantissa = scaled.floor() if down else scaled.ceil()
+    return f"{mantissa}e{-exponent}"
+
+
+def _leading_zeros(end: Any) -> int:
+    return len(str(int(end.q) // abs(int(end.p)))) - 1
+
+
+def agreement(claim: Claim, how: str, number: Number, low: Any, high: Any, exact: bool) -> str:
+    """Yes, no or open: an enclosure [low, high] of rationals against one printed number."""
     if how == "cut":
         return _agrees_cut(number, low, high)
     half = flint.fmpq(0) if exact else number.unit / 2
