@@ -65,10 +65,10 @@ def verdicts() -> list[dict[str, Any]]:
             finding("K.q1", "assumption", "yes", value="-0.46751234+1.07858i -0.12201+0.41828i", digits=4,
                     units_in_last_place=0.3, entries=poles, note="weights-q1")]),
         claim("eq55-11", "erratum", [
-            finding("A - BK", "definition", "no", value="\\n".join([" ".join(direct), *shift]).replace("\\\\n", "\\n"),
+            finding("A - BK", "definition", "no", value="\n".join([" ".join(direct), *shift]).replace("\\\\n", "\n"),
                     units_in_last_place=1179.0, digits=0, entries=no, source=source,
                     evidence={"q": 1, "spectrum": [[-0.1, 0.2], [0.3, -4.5]], "deeper": {"margin": {"exact": "1/3"}}}),
-            finding("A - 2BK", "explanation", "yes", value="\\n".join([" ".join(twice), *shift]), entries=yes,
+            finding("A - 2BK", "explanation", "yes", value="\n".join([" ".join(twice), *shift]), entries=yes,
                     units_in_last_place=0.3, digits=4, source={**source, "line": 8})], explained_by="A - 2BK"),
         claim("eq65-2", "erratum", [
             finding("K.q1", "assumption", "no", value=". . 0.514823 .", entries=k2, units_in_last_place=1.23, digits=3),
@@ -97,7 +97,7 @@ def write(root: Path) -> Path:
         shutil.copyfile(DATA / name, folder / name)
     (folder / "readings" / "loops.py").write_text(READINGS)
     content = {"paper": KEY, "claims": verdicts()}
-    (results / "verdicts.json").write_text(json.dumps(content).replace("\\\\n", "\\n"))
+    (results / "verdicts.json").write_text(json.dumps(content).replace("\\\\n", "\n"))
     quantities = [
         {"name": "margin", "case": "yaw", "value": {"value": 12.25, "error": 1e-9}, "unit": "dB", "strength": "float",
          "description": "gain margin of the loop $L(s)$"},
@@ -107,19 +107,21 @@ def write(root: Path) -> Path:
          "description": "gain margin of the loop $L(s)$"},
     ]  # fmt: skip
     (results / "quantities.json").write_text(json.dumps(quantities))
-    solver = {"solver": "CLARABEL", "status": "optimal", "value": 1.234567891, "iterations": 9, "seconds": 0.3}
-    gains = {
-        "K": {"exact": [["1179/1000", "1/2"]]},
-        "sdp": [solver, {**solver, "solver": "SCS", "status": "inaccurate"}],
-    }
+    solver = {
+        "problem": "sdp", "solver": "CLARABEL", "outcome": "optimal", "words": "solved", "reason": "",
+        "value": 1.234567891, "reported": 1.2345678, "margins": {"a": 0.5, "b": 1e-9}, "iterations": 9, "seconds": 0.3,
+    }  # fmt: skip
+    second = {**solver, "solver": "SCS", "outcome": "inaccurate", "margins": {"b": -2e-9}}
+    agreement = {"agrees": None, "spread": 0.0, "voters": ["CLARABEL"], "solvers": {"CLARABEL": solver, "SCS": second}}
+    gains = {"K": {"exact": [["1179/1000", "1/2"]]}, "sdp": agreement}
     (results / "synthesis" / "lqr.json").write_text(json.dumps(gains))
     certificate = {
-        "schema": 1, "statement": "definite", "paper": KEY, "condition": "lyapunov", "case": None, "data": {},
-        "witness": {}, "digest": "ab" * 32,
+        "schema": "recontrol/certificate/1", "statement": "definite", "says": "the loop is stable", "paper": KEY,
+        "conditions": [{"name": "lyapunov"}], "case": "yaw", "digest": "sha256:" + "ab" * 32,
     }  # fmt: skip
     (results / "certificates" / "loop-full.json").write_text(json.dumps(certificate))
     head = '<svg xmlns="http://www.w3.org/2000/svg" width="480" height="240" viewBox="0 0 80 40">'
     svg = head + '<path d="M5 35 Q 20 0 75 8" fill="none" stroke="#1d4f7c"/></svg>'
     (figures / "fig3.svg").write_text(svg)
-    (figures / "fig3.csv").write_text("curve,x,y\\nfull,0,0\\n")
+    (figures / "fig3.csv").write_text("curve,x,y\nfull,0,0\n")
     return root

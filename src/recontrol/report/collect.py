@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 from collections import Counter
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass, field
 from functools import cached_property
 from pathlib import Path
@@ -290,21 +291,26 @@ class Paper:
     @cached_property
     def solvers(self) -> list[dict[str, Any]]:
         """Every solver record found in the synthesis artifacts, with the place where it stands."""
-        return [row for part, content in self.synthesis.items() for row in _solver_rows(content, part)]
+        return list(_records(self.synthesis, "", _is_solver))
+
+    @cached_property
+    def agreements(self) -> list[dict[str, Any]]:
+        """Every comparison of solvers found in the synthesis artifacts, with its place."""
+        return list(_records(self.synthesis, "", lambda value: {"agrees", "spread", "solvers"} <= set(value)))
 
 
-def _solver_rows(value: Any, place: str) -> list[dict[str, Any]]:
+def _records(value: Any, place: str, wanted: Callable[[dict[str, Any]], bool]) -> Iterator[dict[str, Any]]:
     if isinstance(value, list):
-        return [
-            row
-            for k, item in enumerate(value)
-            for row in _solver_rows(item, place if _is_solver(item) else f"{place}/{k + 1}")
-        ]
-    if not isinstance(value, dict):
-        return []
-    rows = [{"place": place, **value}] if _is_solver(value) else []
-    return rows + [row for name, item in value.items() for row in _solver_rows(item, f"{place}/{name}")]
+        items = [(str(k + 1), item) for k, item in enumerate(value)]
+    elif isinstance(value, dict):
+        items = list(value.items())
+        if wanted(value):
+            yield {"place": place, **value}
+    else:
+        return
+    for name, item in items:
+        yield from _records(item, f"{place}/{name}" if place else str(name), wanted)
 
 
-def _is_solver(value: Any) -> bool:
-    return isinstance(value, dict) and "solver" in value and "status" in value
+def _is_solver(value: dict[str, Any]) -> bool:
+    return "solver" in value and bool({"outcome", "status"} & set(value))

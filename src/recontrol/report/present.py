@@ -245,11 +245,32 @@ def case_finding(finding: Finding, case: dict[str, Any]) -> Finding:
     return Finding({**finding.raw, **empty, "cases": None, "evidence": None, **case}, finding.entry)
 
 
-def solver_columns(rows: list[dict[str, Any]]) -> list[str]:
-    """Return the keys of solver records to show: the known ones first, then what is short enough for a table."""
-    first = ["problem", "case", "solver", "status", "value", "objective", "iterations", "margin"]
-    short = {key for row in rows for key, value in row.items() if not is_nested(value)} - {"place", "seconds", "time"}
-    return [key for key in first if key in short] + sorted(short - set(first))[:6]
+SOLVER_COLUMNS = {
+    "solver": "solver",
+    "outcome": "outcome",
+    "status": "status",
+    "words": "in its own words",
+    "value": "value at its point",
+    "reported": "value it reports",
+    "least margin": "least margin",
+    "iterations": "iterations",
+    "reason": "why not taken as it is",
+}
+"""Keys of a solver record to show and their headings; what varies from run to run (times) is not among them."""
+
+
+def solver_columns(rows: list[dict[str, Any]]) -> dict[str, str]:
+    """Return the columns that some row fills."""
+    return {key: name for key, name in SOLVER_COLUMNS.items() if any(solver_cell(row, key) for row in rows)}
+
+
+def solver_cell(row: dict[str, Any], key: str) -> str:
+    """Return one cell of the solver table."""
+    if key == "least margin":
+        margins = row.get("margins")
+        known = [value for value in margins.values() if value is not None] if isinstance(margins, dict) else []
+        return one_line(min(known)) if known and all(isinstance(value, (int, float)) for value in known) else ""
+    return one_line(row.get(key))
 
 
 def summary(claim: Claim) -> str:
