@@ -1,6 +1,41 @@
 # One generic rule a stage. Each lists as `code` every file that its own and all earlier stages may import.
 
 
+def code(stage):
+    return lambda wildcards: code_of(stage, wildcards.paper)
+
+
+def parts_of(key, stage):
+    """Artifacts of one stage of one paper."""
+    parts = PAPERS[key].parts(stage)
+    made = [f"results/{key}/{stage}/{part}.json" for part in parts]
+    return made + [f"results/{key}/simulation/{part}.npz" for part in parts if stage == "simulation"]
+
+
+def before(*stages):
+    """Inputs of a stage: the artifacts of all earlier stages of the paper."""
+
+    def artifacts(wildcards):
+        found = [f"results/{wildcards.paper}/model.json"]
+        for stage in stages:
+            found += parts_of(wildcards.paper, stage)
+        return found
+
+    return artifacts
+
+
+def figures_of(key):
+    return [f"figures/{key}/{name}.{kind}" for name in PAPERS[key].file.figures for kind in ("svg", "pdf", "png", "csv")]
+
+
+def every_artifact(key):
+    """All artifacts of a paper, of every stage: deleting any of them makes the plain command rebuild it."""
+    found = [f"results/{key}/{name}.json" for name in ("model", "verdicts", "quantities", "review")]
+    for stage in ("synthesis", "certificates", "simulation"):
+        found += parts_of(key, stage)
+    return found + figures_of(key)
+
+
 COMMON = ["config/config.yaml", "environment.lock"]
 
 
@@ -8,7 +43,7 @@ COMMON = ["config/config.yaml", "environment.lock"]
 rule model:
     input:
         COMMON,
-        code=graph.code("model"),
+        code=code("model"),
         paper="papers/{paper}/paper.yaml",
     output:
         "results/{paper}/model.json",
@@ -26,8 +61,8 @@ rule model:
 rule synthesis:
     input:
         COMMON,
-        graph.before("synthesis"),
-        code=graph.code("synthesis"),
+        before(),
+        code=code("synthesis"),
         paper="papers/{paper}/paper.yaml",
     output:
         "results/{paper}/synthesis/{name}.json",
@@ -45,8 +80,8 @@ rule synthesis:
 rule certificate:
     input:
         COMMON,
-        graph.before("certificates"),
-        code=graph.code("certificates"),
+        before("synthesis"),
+        code=code("certificates"),
         paper="papers/{paper}/paper.yaml",
     output:
         "results/{paper}/certificates/{name}.json",
@@ -64,8 +99,8 @@ rule certificate:
 rule simulation:
     input:
         COMMON,
-        graph.before("simulation"),
-        code=graph.code("simulation"),
+        before("synthesis", "certificates"),
+        code=code("simulation"),
         paper="papers/{paper}/paper.yaml",
     output:
         "results/{paper}/simulation/{name}.json",
@@ -84,8 +119,8 @@ rule simulation:
 rule figure:
     input:
         COMMON,
-        graph.before("figure"),
-        code=graph.code("figure"),
+        before("synthesis", "certificates", "simulation"),
+        code=code("figure"),
         paper="papers/{paper}/paper.yaml",
     output:
         multiext("figures/{paper}/{figure}", ".svg", ".pdf", ".png", ".csv"),
@@ -103,8 +138,8 @@ rule figure:
 rule verdicts:
     input:
         COMMON,
-        graph.before("verdicts"),
-        code=graph.code("verdicts"),
+        before("synthesis", "certificates", "simulation"),
+        code=code("verdicts"),
         folder=multiext("papers/{paper}/", "paper.yaml", "claims.yaml", "NOTES.md"),
     output:
         "results/{paper}/verdicts.json",
@@ -122,8 +157,8 @@ rule verdicts:
 rule quantities:
     input:
         COMMON,
-        graph.before("quantities"),
-        code=graph.code("quantities"),
+        before("synthesis", "certificates", "simulation"),
+        code=code("quantities"),
         paper="papers/{paper}/paper.yaml",
     output:
         "results/{paper}/quantities.json",

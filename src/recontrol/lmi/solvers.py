@@ -1,0 +1,167 @@
+"""Solver profiles, and one guarded run of a CVXPY problem: in a child process, timed, with normalised words.
+
+The child protects the caller from crashes and hangs of compiled solvers (CVXOPT and SDPA know no time limit). What a
+solver says is kept word for word; what is believed is decided by `recontrol.lmi.problem` from the stored point.
+"""
+
+from __future__ import annotations
+
+import importlib.util
+import multiprocessing
+import os
+import time
+import warnings
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field, replace
+from typing import Any
+
+OPTIMAL, INACCURATE, INFEASIBLE, UNBOUNDED, FAILED = "optimal", "inaccurate", "infeasible", "unbounded", "failed"
+OUTCOMES = (OPTIMAL, INACCURATE, INFEASIBLE, UNBOUNDED, FAILED)
+
+_WORDS = {
+    "optimal": OPTIMAL,
+    "optimal_inaccurate": INACCURATE,
+    "user_limit": INACCURATE,
+    "infeasible_inaccurate": INACCURATE,
+    "unbounded_inaccurate": INACCURATE,
+    "infeasible": INFEASIBLE,
+    "unbounded": UNBOUNDED,
+}
+
+DEFAULT_TIME_LIMIT = 120.0
+
+
+class SolverMissingError(ValueError):
+    """A solver profile is unknown or its package is not installed."""
+
+
+@dataclass(frozen=True)
+class Profile:
+    """A named way to call a solver through CVXPY.
+
+    ``time_option`` is the solver's own time limit, if it has one. ``run`` replaces the call (for tests): a function of
+    the CVXPY problem that leaves status and values in it.
+    """
+
+    name: str
+    solver: str
+    package: str
+    kind: str  # "interior point" or "first order"
+    options: Mapping[str, Any] = field(default_factory=dict)
+    time_option: str | None = None
+    run: Callable[[Any], None] | None = None
+
+
+PROFILES: dict[str, Profile] = {
+    # "auto" takes faer for larger problems, whose results change with the number of threads.
+    "CLARABEL": Profile(
+        "CLARABEL",
+        "CLARABEL",
+        "clarabel",
+        "interior point",
+        {"direct_solve_method": "qdldl", "max_threads": 1},
+        "time_limit",
+    ),
+    # The default KKT solver of CVXOPT fails on many of these problems.
+    "CVXOPT": Profile("CVXOPT", "CVXOPT", "cvxopt", "interior point", {"kktsolver": "robust"}),
+    "SDPA": Profile("SDPA", "SDPA", "sdpap", "interior point", {"numThreads": 1}),
+    # First order: recorded, never relied on.
+    "SCS": Profile("SCS", "SCS", "scs", "first order", {"eps": 1e-9, "max_iters": 100_000}, "time_limit_secs"),
+}
+
+
+def profile(name: str | Profile, **options: Any) -> Profile:
+    """Profile by name (or a profile itself) with ``options`` over its own.
+
+    Raises SolverMissingError if the name is unknown or the package is not installed.
+    """
+    found = name if isinstance(name, Profile) else PROFILES.get(name)
+    if found is None:
+        raise SolverMissingError(f"no solver profile is called {name!r}; there are {', '.join(PROFILES)}")
+    if found.run is None and importlib.util.find_spec(found.package) is None:
+        raise SolverMissingError(f"solver {found.name}: package {found.package!r} is not installed")
+    return replace(found, options={**found.options, **options}) if options else found
+
+
+@dataclass(frozen=True)
+class Run:
+    """What came back from one guarded run: the solver's words, values of variables and duals by position."""
+
+    words: str
+    outcome: str
+    reported: float | None = None
+    values: tuple[Any, ...] = ()
+    duals: tuple[Any, ...] = ()
+    iterations: int | None = None
+    seconds: float = 0.0
+
+
+def run(problem: Any, chosen: Profile, time_limit: float = DEFAULT_TIME_LIMIT) -> Run:
+    """Solve a CVXPY problem in a child process within ``time_limit`` [s]; never raises for what the solver does.
+
+    A crash, an exception or a killed child gives outcome "failed" with words that say so.
+    """
+    context = multiprocessing.get_context("fork")
+    receive, send = context.Pipe(duplex=False)
+    started = time.perf_counter()
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", DeprecationWarning)  # fork beside idle BLAS threads, Python 3.12
+        child = context.Process(target=_child, args=(problem, chosen, time_limit, send), daemon=True)
+        child.start()
+    send.close()
+    # The solver's own limit comes first where it has one: it may still hand over its best point.
+    patience = time_limit * 1.25 + 2.0 if chosen.time_option else time_limit
+    try:
+        answer = receive.recv() if receive.poll(patience) else None
+    except EOFError:
+        child.join()
+        return Run(f"crashed: the solver's process ended with code {child.exitcode}", FAILED, seconds=_since(started))
+    finally:
+        receive.close()
+    if answer is None:
+        child.kill()
+        child.join()
+        return Run(f"out of time: stopped after {time_limit:g} s", FAILED, seconds=_since(started))
+    child.join()
+    return Run(**answer, seconds=_since(started))
+
+
+def _since(started: float) -> float:
+    return time.perf_counter() - started
+
+
+def _child(problem: Any, chosen: Profile, time_limit: float, send: Any) -> None:
+    """Runs in the child: solve, send plain data, leave without clean-up handlers of the parent."""
+    null = os.open(os.devnull, os.O_WRONLY)
+    os.dup2(null, 1)
+    os.dup2(null, 2)
+    try:
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore")
+            answer = _solve(problem, chosen, time_limit)
+    except Exception as error:
+        answer = {"words": f"error: {type(error).__name__}: {error}".strip()[:300], "outcome": FAILED}
+    send.send(answer)
+    send.close()
+    os._exit(0)
+
+
+def _solve(problem: Any, chosen: Profile, time_limit: float) -> dict[str, Any]:
+    if chosen.run is not None:
+        chosen.run(problem)
+    else:
+        options = dict(chosen.options)
+        if chosen.time_option:
+            options[chosen.time_option] = float(time_limit)
+        problem.solve(solver=chosen.solver, **options)
+    words = str(problem.status)
+    stats = problem.solver_stats
+    value = problem.value
+    return {
+        "words": words,
+        "outcome": _WORDS.get(words, FAILED),
+        "reported": float(value) if value is not None else None,
+        "values": tuple(v.value for v in problem.variables()),
+        "duals": tuple(c.dual_value for c in problem.constraints),
+        "iterations": None if stats is None or stats.num_iters is None else int(stats.num_iters),
+    }
