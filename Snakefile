@@ -1,22 +1,21 @@
 # The chain of every paper under papers/: model, synthesis, certificates, simulation, figures, verdicts, report.
-import os
 import sys
+from pathlib import Path
 
-sys.path[:0] = [os.path.join(workflow.basedir, "src")]
+sys.path.insert(0, str(Path(workflow.basedir) / "src"))
 
 from snakemake.exceptions import WorkflowError
 
 from recontrol import paper as paper_folders
 from recontrol.errors import RecontrolError
 from recontrol.pipeline import environment, guard
-from recontrol.pipeline.closure import code_of, files_of
+from recontrol.pipeline.graph import Graph
 
-environment.pin()
-os.environ["PATH"] = os.path.dirname(sys.executable) + os.pathsep + os.environ["PATH"]
-os.environ["PYTHONPATH"] = os.path.join(workflow.basedir, "src") + os.pathsep + os.path.abspath(".")
-
+environment.for_jobs(Path(workflow.basedir))
 try:
-    PAPERS = {key: paper_folders.load(f"papers/{key}") for key in paper_folders.discover()}
+    graph = Graph(
+        {key: paper_folders.load(f"papers/{key}") for key in paper_folders.discover()}
+    )
     if workflow.is_main_process:
         guard.enter()
 except RecontrolError as error:
@@ -27,7 +26,7 @@ configfile: "config/config.yaml"
 
 
 wildcard_constraints:
-    paper="|".join(PAPERS) or "none",
+    paper="|".join(graph.papers) or "none",
 
 
 include: "rules/chain.smk"
@@ -38,9 +37,9 @@ include: "rules/report.smk"
 rule all:
     default_target: True
     input:
-        [every_artifact(key) for key in PAPERS],
+        [graph.everything(key) for key in graph.papers],
         "results/report/index.html",
 
 
 onerror:
-    shell("python -m recontrol.pipeline salvage " + " ".join(PAPERS) + " >&2")
+    shell("python -m recontrol.pipeline salvage " + " ".join(graph.papers) + " >&2")

@@ -1,41 +1,6 @@
 # One generic rule a stage. Each lists as `code` every file that its own and all earlier stages may import.
 
 
-def code(stage):
-    return lambda wildcards: code_of(stage, wildcards.paper)
-
-
-def parts_of(key, stage):
-    """Artifacts of one stage of one paper."""
-    parts = PAPERS[key].parts(stage)
-    made = [f"results/{key}/{stage}/{part}.json" for part in parts]
-    return made + [f"results/{key}/simulation/{part}.npz" for part in parts if stage == "simulation"]
-
-
-def before(*stages):
-    """Inputs of a stage: the artifacts of all earlier stages of the paper."""
-
-    def artifacts(wildcards):
-        found = [f"results/{wildcards.paper}/model.json"]
-        for stage in stages:
-            found += parts_of(wildcards.paper, stage)
-        return found
-
-    return artifacts
-
-
-def figures_of(key):
-    return [f"figures/{key}/{name}.{kind}" for name in PAPERS[key].file.figures for kind in ("svg", "pdf", "png", "csv")]
-
-
-def every_artifact(key):
-    """All artifacts of a paper, of every stage: deleting any of them makes the plain command rebuild it."""
-    found = [f"results/{key}/{name}.json" for name in ("model", "verdicts", "quantities", "review")]
-    for stage in ("synthesis", "certificates", "simulation"):
-        found += parts_of(key, stage)
-    return found + figures_of(key)
-
-
 COMMON = ["config/config.yaml", "environment.lock"]
 
 
@@ -43,7 +8,7 @@ COMMON = ["config/config.yaml", "environment.lock"]
 rule model:
     input:
         COMMON,
-        code=code("model"),
+        code=graph.code("model"),
         paper="papers/{paper}/paper.yaml",
     output:
         "results/{paper}/model.json",
@@ -61,8 +26,8 @@ rule model:
 rule synthesis:
     input:
         COMMON,
-        before(),
-        code=code("synthesis"),
+        graph.before("synthesis"),
+        code=graph.code("synthesis"),
         paper="papers/{paper}/paper.yaml",
     output:
         "results/{paper}/synthesis/{name}.json",
@@ -80,8 +45,8 @@ rule synthesis:
 rule certificate:
     input:
         COMMON,
-        before("synthesis"),
-        code=code("certificates"),
+        graph.before("certificates"),
+        code=graph.code("certificates"),
         paper="papers/{paper}/paper.yaml",
     output:
         "results/{paper}/certificates/{name}.json",
@@ -99,8 +64,8 @@ rule certificate:
 rule simulation:
     input:
         COMMON,
-        before("synthesis", "certificates"),
-        code=code("simulation"),
+        graph.before("simulation"),
+        code=graph.code("simulation"),
         paper="papers/{paper}/paper.yaml",
     output:
         "results/{paper}/simulation/{name}.json",
@@ -119,8 +84,8 @@ rule simulation:
 rule figure:
     input:
         COMMON,
-        before("synthesis", "certificates", "simulation"),
-        code=code("figure"),
+        graph.before("figure"),
+        code=graph.code("figure"),
         paper="papers/{paper}/paper.yaml",
     output:
         multiext("figures/{paper}/{figure}", ".svg", ".pdf", ".png", ".csv"),
@@ -138,8 +103,8 @@ rule figure:
 rule verdicts:
     input:
         COMMON,
-        before("synthesis", "certificates", "simulation"),
-        code=code("verdicts"),
+        graph.before("verdicts"),
+        code=graph.code("verdicts"),
         folder=multiext("papers/{paper}/", "paper.yaml", "claims.yaml", "NOTES.md"),
     output:
         "results/{paper}/verdicts.json",
@@ -157,8 +122,8 @@ rule verdicts:
 rule quantities:
     input:
         COMMON,
-        before("synthesis", "certificates", "simulation"),
-        code=code("quantities"),
+        graph.before("quantities"),
+        code=graph.code("quantities"),
         paper="papers/{paper}/paper.yaml",
     output:
         "results/{paper}/quantities.json",

@@ -1,25 +1,16 @@
 # What readers see, and the review that a run must pass.
-import glob
-
+PAPERS = list(graph.papers)
 VERDICTS = [f"results/{key}/verdicts.json" for key in PAPERS]
-
-
-def references(wildcards):
-    return sorted(glob.glob(f"papers/{wildcards.paper}/reference/*.csv"))
-
-
-def tools(*modules):
-    return files_of(frozenset(modules), Path(".").resolve())
 
 
 # A run whose verdicts or figure data are not the reviewed ones fails here, with both shown.
 rule review:
     input:
-        references,
+        graph.references,
         "papers/{paper}/claims.yaml",
         verdicts="results/{paper}/verdicts.json",
-        figures=lambda wildcards: figures_of(wildcards.paper),
-        code=tools("recontrol.pipeline.review"),
+        figures=lambda wildcards: graph.figures(wildcards.paper),
+        code=graph.tools("recontrol.pipeline.review"),
     output:
         "results/{paper}/review.json",
     log:
@@ -34,15 +25,15 @@ rule review:
 rule collect:
     input:
         VERDICTS,
-        code=tools("recontrol.pipeline.collect"),
+        code=graph.tools("recontrol.pipeline.collect"),
     output:
         "results/verdicts.json",
     log:
         "run/log/collect.log",
+    params:
+        papers=PAPERS,
     message:
         "verdicts of all papers"
-    params:
-        papers=list(PAPERS),
     shell:
         "python -m recontrol.pipeline collect {params.papers} > {log} 2>&1"
 
@@ -50,21 +41,21 @@ rule collect:
 # The report: works from disk, without network and without JavaScript.
 rule report:
     input:
-        "results/verdicts.json",
-        [f"results/{key}/quantities.json" for key in PAPERS],
-        [parts_of(key, stage) for key in PAPERS for stage in ("synthesis", "certificates")],
-        [figures_of(key) for key in PAPERS],
-        [multiext(f"papers/{key}/", "paper.yaml", "claims.yaml", "NOTES.md") for key in PAPERS],
-        code=tools("recontrol.report"),
-        templates=sorted(glob.glob("src/recontrol/report/**/*.*", recursive=True)),
+        graph.read_by_report(),
+        code=graph.tools("recontrol.report.__main__"),
+        templates=[
+            path.as_posix()
+            for path in sorted(Path("src/recontrol/report").rglob("*.*"))
+            if path.suffix != ".pyc"
+        ],
     output:
         "results/report/index.html",
     log:
         "run/log/report.log",
+    params:
+        papers=PAPERS,
     message:
         "report: results/report/index.html"
-    params:
-        papers=list(PAPERS),
     shell:
         "python -m recontrol.report build {params.papers} > {log} 2>&1"
 
@@ -72,14 +63,20 @@ rule report:
 # Show every difference from the review; exit code 1 if there is one.
 rule check:
     input:
-        [f"results/{key}/{name}.json" for key in PAPERS for name in ("verdicts", "model")],
-        [figures_of(key) for key in PAPERS],
+        [
+            f"results/{key}/{name}.json"
+            for key in PAPERS
+            for name in ("verdicts", "model")
+        ],
+        [graph.figures(key) for key in PAPERS],
+    log:
+        "run/log/check.log",
     params:
-        papers=list(PAPERS),
+        papers=PAPERS,
     message:
         "check against the review"
     shell:
-        "python -m recontrol.pipeline review {params.papers}"
+        "python -m recontrol.pipeline review {params.papers} 2>&1 | tee {log}"
 
 
 # One target a paper: `snakemake --cores 2 wan2014`.
@@ -89,4 +86,4 @@ for key in PAPERS:
         name:
             key
         input:
-            every_artifact(key),
+            graph.everything(key),

@@ -61,13 +61,14 @@ def load(path: Path) -> tuple[Any, Lines]:
 def _refuse_references(text: str, path: Path) -> None:
     depth = 0
     for event in yaml.parse(text, Loader=yaml.SafeLoader):
-        line = event.start_mark.line + 1
+        line = event.start_mark.line + 1 if event.start_mark else 1
         if isinstance(event, yaml.AliasEvent):
             raise PaperError(f"{path}:{line}: alias *{event.anchor}; write the value out, aliases are refused")
-        if getattr(event, "anchor", None):
-            raise PaperError(f"{path}:{line}: anchor &{event.anchor}; anchors are refused")
-        if getattr(event, "tag", None):
-            raise PaperError(f"{path}:{line}: tag {event.tag}; all scalars are text, tags are refused")
+        anchor, tag = getattr(event, "anchor", None), getattr(event, "tag", None)
+        if anchor:
+            raise PaperError(f"{path}:{line}: anchor &{anchor}; anchors are refused")
+        if tag:
+            raise PaperError(f"{path}:{line}: tag {tag}; all scalars are text, tags are refused")
         if isinstance(event, yaml.CollectionStartEvent):
             depth += 1
             if depth > MAX_DEPTH:

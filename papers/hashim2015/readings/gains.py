@@ -132,3 +132,16 @@ def speed_ratios(plant: Plant, data: Any) -> dict[str, Any]:
         out[f"{name}: ratio of real parts"] = fast.real / slow.real
         out[f"{name}: ratio of moduli"] = abs(fast) / abs(slow)
     return out
+
+
+def s3_gains_pr(synthesis: Any, case: str) -> Result:
+    """K of the axis by the same recipe; L and both reduced designs as evidence."""
+    balls = synthesis["gains"][case]["balls"]
+    evidence = {
+        "L": balls["L"]["exact"],
+        "L_r, x1 measured": balls["x1"]["exact"]["L"],
+        "x1 design A_r, B_r, C_r, D_r": [balls["x1"]["exact"][name] for name in "ABCD"],
+        "L_r, y measured": balls["corrected"]["L"],
+        "corrected design A_r, B_r, C_r, D_r": [balls["corrected"][name] for name in "ABCD"],
+    }
+    return Result(balls["K"], evidence=evidence)

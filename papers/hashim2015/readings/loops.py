@@ -62,9 +62,7 @@ def eq55_e16(model: Any, data: Any) -> Result:
     """K2(1) from (52) and (6), anywhere in the box."""
     plant = plant_of(model, "yaw")
     box = plant.A[:1] - data.ball("A_c")[:1]
-    evidence = {
-        "K2(1) of (65), half-unit interval touches that of the print": [data["K2"][0, 0], data.half("K2")[0, 0]]
-    }
+    evidence = {"K2(1) of (65) and its half unit (the intervals touch)": [data["K2"][0, 0], data.half("K2")[0, 0]]}
     return Result(_embed(plant.B @ box, 0, HALF), evidence=evidence)
 
 

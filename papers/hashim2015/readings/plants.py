@@ -123,7 +123,7 @@ def full_compensator(plant: Plant, entry: Any) -> tuple[np.ndarray, np.ndarray, 
 
 
 def s1_bandwidth(model: Any, synthesis: Any, case: str) -> Result:
-    """Gain from sensor to control of both reduced designs above that of the full order at 10 and 100 rad/s and in the limit."""
+    """Gain from sensor to control of both reduced designs above that of the full order, and in the limit."""
     plant, entry = plant_of(model, case), synthesis["gains"][case]
     margins, evidence = {}, {}
     with precision(PRECISION):

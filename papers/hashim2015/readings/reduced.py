@@ -12,6 +12,7 @@ from recontrol.exact.ball import exact_midpoint, precision, to_ball
 from recontrol.exact.polynomial import PRECISION, charpoly
 from recontrol.exact.rational import rounded
 
+from ..intervals import coefficient_polynomials, coefficient_range, kharitonov_corners
 from ..recipe import partition, plant_of, reduced_matrices
 from .support import coefficient_margins, first_state, printed_gain, printed_reduced, reduced_loop, routh_margins
 
@@ -168,7 +169,7 @@ def enclosure_evidence(model: Any, data: Any, K: np.ndarray) -> dict[str, Any]:
 
 
 def columns_exclude(model: Any, data: Any) -> Statement:
-    """With the printed sign of (46) the enclosures of L_r(1) by columns 1 and 2 have a point in common (they have not)."""
+    """With the printed sign of (46) columns 1 and 2 leave a common L_r(1): they do not."""
     sets = estimator_gain_sets(model, data, gain_box(model, data), -1)
     low, high = intersect([sets[0][0], sets[1][0]])
     return Statement({"overlap of columns 1 and 2": high - low})
@@ -187,3 +188,12 @@ def abs_stable_red_x1(model: Any, data: Any) -> Statement:
     plant = plant_of(model, "yaw")
     M = reduced_loop(plant, first_state(plant.n), **printed_reduced(lambda name: data[name]))
     return Statement(routh_margins(charpoly(M)))
+
+
+def abs_stable_red_box(model: Any, data: Any) -> Statement:
+    """(66)-(69) fed with x1, whole rounding box: Routh columns of the four Kharitonov polynomials, exact."""
+    ends = [coefficient_range(c, fmpq(1)) for c in coefficient_polynomials(model, data)]
+    margins: dict[str, Any] = {}
+    for k, corner in enumerate(kharitonov_corners(ends), start=1):
+        margins |= routh_margins(corner, f"polynomial {k}: Routh")
+    return Statement(margins)

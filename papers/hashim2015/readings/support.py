@@ -16,7 +16,7 @@ def descending(row: np.ndarray) -> fmpq_poly:
 
 
 def routh_margins(p: Any, name: str = "Routh") -> dict[str, Any]:
-    """First column of Routh's array of the monic ``p`` below the leading 1: all positive if and only if p is Hurwitz."""
+    """First column of Routh's array of the monic ``p`` below the leading 1: all positive exactly if p is Hurwitz."""
     return {f"{name} {k}": value for k, value in enumerate(routh_column(monic(p))[1:], start=1)}
 
 

@@ -29,7 +29,11 @@ YES, NO, OPEN = "yes", "no", "open"
 
 @dataclass(frozen=True)
 class Entry:
-    """One compared cell: where, printed text, found midpoint (text), distances."""
+    """One compared cell: where, printed text, found midpoint (text), distances.
+
+    enclosure: outward-rounded decimal ends (low, high) of the found value, one pair for each part of the cell (real; or
+    real and imaginary).
+    """
 
     place: str
     printed: str
@@ -39,6 +43,7 @@ class Entry:
     units_in_last_place: float
     digits: int
     digits_printed: int
+    enclosure: list[tuple[str, str]]
 
 
 @dataclass(frozen=True)
@@ -65,9 +70,8 @@ def compare(claim: Claim, how: str, value: Any, paper: Paper) -> Outcome:
     if expected_type is not None:
         if not isinstance(value, expected_type):
             raise ValueContractError(f"compare: {how} needs a {expected_type.__name__}, got {type(value).__name__}")
-        return {"identity": _identity, "size": _size, "statement": _statement, "membership": _membership}[how](
-            claim, value
-        )
+        decide: Any = {"identity": _identity, "size": _size, "statement": _statement, "membership": _membership}[how]
+        return decide(claim, value)
     if how == "range":
         return _range(claim, value)
     return _numeric(claim, how, value, claim.printed_value(paper))
@@ -84,10 +88,11 @@ def combine(agreements: list[str], holds: str = "all") -> str:
 def _numeric(claim: Claim, how: str, value: Any, printed: Printed) -> Outcome:
     found = as_matrix(value, printed.shape)
     mask = parse_mask(claim.entries, claim.except_, printed.shape)
-    entries, strengths = [], []
-    for i, j in zip(*np.nonzero(mask), strict=True):
+    places = list(zip(*(axis.tolist() for axis in np.nonzero(mask)), strict=True))
+    strengths = [strength_of(found[place]) for place in places]
+    entries = []
+    for i, j in places:
         entries.append(_entry(claim, how, printed.rows[i][j], found[i, j], f"{i + 1},{j + 1}", printed.exact))
-        strengths.append(_scalar_strength(found[i, j]))
     return Outcome(
         agrees=combine([entry.agrees for entry in entries]),
         strength=weakest(strengths),
@@ -105,7 +110,8 @@ def _numeric(claim: Claim, how: str, value: Any, printed: Printed) -> Outcome:
 
 def _entry(claim: Claim, how: str, cell: Cell, found: Any, place: str, exact: bool) -> Entry:
     parts = _parts(cell, found)
-    agrees = combine([_agrees(claim, how, number, part, exact) for number, part in parts])
+    ends = [enclosure(part) for _, part in parts]
+    agrees = combine([agreement(claim, how, number, *end, exact) for (number, _), end in zip(parts, ends, strict=True)])
     distances = [abs(_middle(part) - number.value) for number, part in parts]
     units = [float(d / number.unit) for d, (number, _) in zip(distances, parts, strict=True)]
     return Entry(
@@ -117,6 +123,7 @@ def _entry(claim: Claim, how: str, cell: Cell, found: Any, place: str, exact: bo
         units_in_last_place=max(units),
         digits=min(_digits(number, d) for d, (number, _) in zip(distances, parts, strict=True)),
         digits_printed=min(number.digits for number, _ in parts),
+        enclosure=[(_decimal(low, down=True), _decimal(high, down=False)) for low, high in ends],
     )
 
 
@@ -129,8 +136,22 @@ def _parts(cell: Cell, found: Any) -> list[tuple[Number, Any]]:
     return [(cell.real, real), (cell.imag, imag)]
 
 
-def _agrees(claim: Claim, how: str, number: Number, found: Any, exact: bool) -> str:
-    low, high = enclosure(found)
+def _decimal(end: Any, down: bool, digits: int = 25) -> str:
+    """A rational rounded outward to a decimal of `digits` significant digits."""
+    if end == 0:
+        return "0"
+    exponent = digits - len(str(abs(int(end.p)) // int(end.q))) if abs(end) >= 1 else digits + _leading_zeros(end)
+    scaled = end * flint.fmpq(10) ** exponent
+    mantissa = scaled.floor() if down else scaled.ceil()
+    return f"{mantissa}e{-exponent}"
+
+
+def _leading_zeros(end: Any) -> int:
+    return len(str(int(end.q) // abs(int(end.p)))) - 1
+
+
+def agreement(claim: Claim, how: str, number: Number, low: Any, high: Any, exact: bool) -> str:
+    """Yes, no or open: an enclosure [low, high] of rationals against one printed number."""
     if how == "cut":
         return _agrees_cut(number, low, high)
     half = flint.fmpq(0) if exact else number.unit / 2
@@ -239,10 +260,6 @@ def _is_complex(value: Any) -> bool:
     if isinstance(value, Approx):
         return isinstance(value.value, complex)
     return isinstance(value, flint.acb)
-
-
-def _scalar_strength(value: Any) -> str:
-    return strength_of(value)
 
 
 def _middle(scalar: Any) -> Any:

@@ -17,8 +17,10 @@ import numpy as np
 from recontrol.errors import PaperError
 
 _DECIMAL = r"[+-]?\d+(?:\.\d*)?(?:[eE][+-]?\d{1,3})?"
-_NUMBER = re.compile(_DECIMAL)
-_COMPLEX = re.compile(rf"(?P<re>{_DECIMAL})(?P<sign>\+-|\+|-)(?P<im>\d+(?:\.\d*)?(?:[eE][+-]?\d{{1,3}})?)[ij]")
+_NUMBER = re.compile(_DECIMAL, re.ASCII)
+_COMPLEX = re.compile(
+    rf"(?P<re>{_DECIMAL})(?P<sign>\+-|\+|-)(?P<im>\d+(?:\.\d*)?(?:[eE][+-]?\d{{1,3}})?)[ij]", re.ASCII
+)
 MAX_DIGITS = 60
 
 

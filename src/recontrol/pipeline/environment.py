@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import os
 import platform
+import sys
+from pathlib import Path
 
 THREADS = (
     "OMP_NUM_THREADS",
@@ -13,6 +15,13 @@ THREADS = (
     "NUMEXPR_NUM_THREADS",
     "VECLIB_MAXIMUM_THREADS",
 )
+
+
+def for_jobs(root: Path) -> None:
+    """Pin this process, and let the shell commands of the rules find this interpreter and these sources."""
+    pin()
+    os.environ["PATH"] = os.pathsep.join([str(Path(sys.executable).parent), os.environ.get("PATH", "")])
+    os.environ["PYTHONPATH"] = os.pathsep.join([str(root / "src"), str(Path.cwd())])
 
 
 def pin() -> None:

@@ -25,3 +25,8 @@ def figure_file(key: str, figure: str, suffix: str) -> Path:
 def reference_file(folder: Path, figure: str) -> Path:
     """Reviewed, decimated data of a figure inside the paper folder."""
     return folder / "reference" / f"{figure}.csv"
+
+
+def conclusions(key: str) -> list[Path]:
+    """What is concluded from the stages of a paper: none of it may outlive a stage that runs again and fails."""
+    return [*(artifact(key, name) for name in ("verdicts", "quantities", "review")), Path("results/verdicts.json")]

@@ -9,14 +9,15 @@ from pathlib import Path
 from typing import Any
 
 from recontrol.errors import StageError
-from recontrol.pipeline import inputs, job
+from recontrol.pipeline import inputs, job, store
 from recontrol.pipeline.closure import MODULES, ORDER
 from recontrol.pipeline.encode import dumps
-from recontrol.pipeline.layout import artifact, series_file
+from recontrol.pipeline.layout import artifact, conclusions, series_file
 
 
 def run(stage: str, key: str, part: str | None) -> None:
     """Call the stage function and publish what it returns. Raises RecontrolError with the file at fault."""
+    store.retract(conclusions(key))
     paper = job.open_paper(key)
     if part is not None and part not in paper.parts(stage):
         raise StageError(f"papers/{key}/paper.yaml: stage {stage} has no part {part!r}")
@@ -41,7 +42,7 @@ def pack_series(series: Mapping[str, Any], home: str) -> bytes:
     """Float arrays as .npz bytes, equal for equal content. Raises StageError for object or non-finite arrays."""
     import numpy as np
 
-    arrays = {}
+    arrays: dict[str, Any] = {}
     for name in sorted(series):
         array = np.asarray(series[name])
         if array.dtype.kind not in "bif":

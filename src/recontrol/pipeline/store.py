@@ -120,6 +120,13 @@ def digest_of(path: Path | str) -> str:
         raise MissingArtifactError(f"{path}: has no record of who made it") from None
 
 
+def retract(paths: Iterable[Path]) -> None:
+    """Remove conclusions that a stage about to run may overturn; the chain draws them anew after it."""
+    for path in paths:
+        record_path(path).unlink(missing_ok=True)
+        path.unlink(missing_ok=True)
+
+
 def untrusted(tops: Iterable[str] = KEPT) -> list[tuple[Path, str]]:
     """All artifacts under results/ and figures/ that differ from their record or have none, with the reason."""
     found = []

@@ -166,7 +166,9 @@ def minimise_over_frequency(value: Callable[[Array], Array], scales: Array, samp
         found = minimize_scalar(
             lambda w: float(value(np.array([w]))[0]), bounds=(low, high), method="bounded", options={"xatol": 1e-13}
         )
-        best = min(best, (float(values[k]), float(grid[k])), (float(found.fun), float(found.x)))
+        best = min(best, (float(values[k]), float(grid[k])))
+        if found.fun < best[0] * (1 - 1e-13):  # at a flat end of the grid the refinement only adds rounding
+            best = (float(found.fun), float(found.x))
     return best
 
 

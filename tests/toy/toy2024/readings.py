@@ -3,7 +3,7 @@
 import numpy as np
 from flint import fmpq
 
-from recontrol.claims.values import Statement
+from recontrol.claims.values import Approx, Statement
 
 
 def gain(synthesis):
@@ -18,3 +18,7 @@ def matrix():
 def stable(model, synthesis, case):
     factor = {"slow": 1, "fast": 2}[case]
     return Statement({"decay rate": synthesis["gain"]["k"] - factor * model["a"]})
+
+
+def decayed(simulation):
+    return Statement({"room": Approx(0.01 - float(simulation["decay"]["series"]["x"][-1]), 1e-12)})

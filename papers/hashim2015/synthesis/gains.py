@@ -31,8 +31,8 @@ import numpy as np
 from recontrol.exact.ball import midpoint, precision
 from recontrol.exact.polynomial import PRECISION, ball_poly, left_roots, place_estimator
 
-from . import recipe
-from .model import AXES
+from .. import recipe
+from ..model import AXES
 
 
 def complexes(poles: list[Any]) -> np.ndarray:

@@ -1,0 +1,49 @@
+# Two commands do everything: `make reproduce` and `make test`. `make help` lists the rest.
+PYTHON ?= python3
+VENV ?= .venv
+CORES ?= 2
+BIN = $(VENV)/bin
+LOCK_DATE ?=
+
+.DEFAULT_GOAL := help
+.PHONY: help reproduce test check lint unit build environment test-environment lock schemas clean distclean
+
+help: ## this list
+	@grep -hE '^[a-z-]+:.*## ' $(MAKEFILE_LIST) | sed 's/:.*## /\t/' | expand -t 18
+
+environment: ## the run-time environment from environment.lock
+	@$(PYTHON) tools/environment.py $(VENV) environment.lock
+
+test-environment: ## the same with the test tools
+	@$(PYTHON) tools/environment.py $(VENV)-test environment-test.lock
+
+reproduce: environment ## rebuild every paper: results/, figures/, results/report/index.html
+	@$(BIN)/snakemake --cores $(CORES) all
+	@echo "report: results/report/index.html"
+
+check: environment ## show every difference from the reviewed verdicts and figures
+	@$(BIN)/snakemake --cores $(CORES) check
+
+test: test-environment ## linters, all tests, then a build of everything from nothing, and check
+	@VENV=$(VENV)-test CORES=$(CORES) tools/test.sh all
+
+lint: test-environment ## the linters alone
+	@VENV=$(VENV)-test tools/test.sh lint
+
+unit: test-environment ## the tests alone
+	@VENV=$(VENV)-test tools/test.sh unit
+
+schemas: test-environment ## JSON Schemas of paper.yaml and claims.yaml for editors
+	@$(VENV)-test/bin/python tools/schemas.py
+
+lock: ## resolve pyproject.toml into the two lock files (needs uv; LOCK_DATE=2026-11-01 repeats a resolution)
+	uv pip compile --universal --python-version 3.11 --generate-hashes --no-header \
+	  $(if $(LOCK_DATE),--exclude-newer $(LOCK_DATE)) pyproject.toml -o environment.lock
+	uv pip compile --universal --python-version 3.11 --generate-hashes --no-header --extra test \
+	  $(if $(LOCK_DATE),--exclude-newer $(LOCK_DATE)) -c environment.lock pyproject.toml -o environment-test.lock
+
+clean: ## remove what the chain made
+	rm -rf results figures run .snakemake
+
+distclean: clean ## and the environments
+	rm -rf .venv .venv-test .pytest_cache .mypy_cache .ruff_cache .hypothesis

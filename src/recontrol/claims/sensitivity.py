@@ -1,0 +1,75 @@
+"""Would a misprint be noticed? Every printed digit of the claims that agree digit by digit is changed in turn."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass, replace
+from typing import Any
+
+from flint import fmpq
+
+from recontrol.claims.compare import agreement, combine
+from recontrol.claims.printed import Cell, Number, Printed, parse_mask
+from recontrol.claims.schema import Claim
+from recontrol.claims.verdict import Finding, derive
+from recontrol.paper import Paper
+
+
+@dataclass(frozen=True)
+class Misprint:
+    """One digit of one cell replaced: the claim's print as it would then stand."""
+
+    place: str
+    cell: str
+    printed: Printed
+
+
+def misprints(claim: Claim, paper: Paper) -> Iterator[Misprint]:
+    """Every print that differs from the claim's in one digit of one compared cell (the digit raised by one, 9 to 0)."""
+    printed = claim.printed_value(paper)
+    mask = parse_mask(claim.entries, claim.except_, printed.shape)
+    for i, row in enumerate(printed.rows):
+        for j, cell in enumerate(row):
+            if mask[i, j]:
+                for text in _changed(cell.text):
+                    cells = [list(r) for r in printed.rows]
+                    cells[i][j] = Cell.parse(text)
+                    yield Misprint(f"{i + 1},{j + 1}", text, replace(printed, rows=tuple(map(tuple, cells))))
+
+
+def _changed(text: str) -> Iterator[str]:
+    mantissa = text.lower().partition("e")[0] if "j" not in text and "i" not in text else text
+    for position, character in enumerate(mantissa):
+        if character.isdigit():
+            yield text[:position] + str((int(character) + 1) % 10) + text[position + 1 :]
+
+
+def verdict_with(claim: Claim, record: dict[str, Any], misprint: Misprint) -> str:
+    """The verdict that the recorded findings would give if the paper printed the misprint instead."""
+    findings = []
+    for reading, finding in zip(claim.readings, record["findings"], strict=True):
+        how = reading.compare or claim.compare
+        groups = [case["entries"] for case in finding["cases"]] or [finding["entries"]]
+        agrees = finding["agrees"]
+        if how in ("digits", "cut") and any(groups):
+            holds = reading.over.holds if reading.over else "all"
+            agrees = combine([_agrees(claim, how, entries, misprint) for entries in groups], holds)
+        findings.append(Finding(reading.name, reading.kind, agrees, finding["strength"]))
+    return derive(claim.compare, claim.unique, findings).verdict
+
+
+def _agrees(claim: Claim, how: str, entries: list[dict[str, Any]], misprint: Misprint) -> str:
+    results = []
+    for entry in entries:
+        if entry["place"] != misprint.place:
+            results.append(entry["agrees"])
+            continue
+        parts = Cell.parse(misprint.cell).parts
+        ends = [[_rational(end) for end in pair] for pair in entry["enclosure"]]
+        exact = misprint.printed.exact
+        results += [agreement(claim, how, number, *end, exact) for number, end in zip(parts, ends, strict=True)]
+    return combine(results)
+
+
+def _rational(text: str) -> fmpq:
+    return Number.parse(text).value

@@ -1,0 +1,66 @@
+"""Which artifacts each rule of the chain reads: the functions that the rules call while the graph is built."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from pathlib import Path
+from typing import Any
+
+from recontrol.paper import STAGES_WITH_PARTS, Paper
+from recontrol.pipeline.closure import ORDER, code_of, files_of
+from recontrol.pipeline.layout import FIGURE_FORMATS, artifact, figure_file, series_file
+
+
+class Graph:
+    """Artifacts of a set of papers. `papers` maps keys to validated folders."""
+
+    def __init__(self, papers: Mapping[str, Paper]):
+        self.papers = papers
+
+    def stage(self, key: str, stage: str) -> list[str]:
+        """Artifacts of one stage of one paper."""
+        if stage == "model":
+            return [str(artifact(key, "model"))]
+        parts = self.papers[key].parts(stage)
+        series = [str(series_file(key, part)) for part in parts] if stage == "simulation" else []
+        return [str(artifact(key, stage, part)) for part in parts] + series
+
+    def before(self, stage: str) -> Callable[[Any], list[str]]:
+        """Input function: artifacts of all stages before `stage` of the wildcard's paper."""
+        earlier = ORDER[: ORDER.index(stage)] if stage in ORDER else ORDER
+        return lambda wildcards: [name for step in earlier for name in self.stage(wildcards.paper, step)]
+
+    def figures(self, key: str) -> list[str]:
+        """All files of all figures of a paper."""
+        names = self.papers[key].file.figures
+        return [str(figure_file(key, name, kind)) for name in names for kind in FIGURE_FORMATS]
+
+    def everything(self, key: str) -> list[str]:
+        """All artifacts of a paper, of every stage: deleting any of them makes the plain command rebuild it."""
+        found = [str(artifact(key, name)) for name in ("model", "verdicts", "quantities", "review")]
+        return found + [name for stage in STAGES_WITH_PARTS for name in self.stage(key, stage)] + self.figures(key)
+
+    def read_by_report(self) -> list[str]:
+        """What the report reads of all papers."""
+        found = ["results/verdicts.json"]
+        for key in self.papers:
+            found += [str(artifact(key, "verdicts")), str(artifact(key, "quantities"))]
+            found += [name for stage in ("synthesis", "certificates") for name in self.stage(key, stage)]
+            found += self.figures(key)
+            found += [f"papers/{key}/{name}" for name in ("paper.yaml", "claims.yaml", "NOTES.md")]
+        return found
+
+    @staticmethod
+    def code(stage: str) -> Callable[[Any], list[str]]:
+        """Input function: every file that a stage and all earlier ones of the wildcard's paper may import."""
+        return lambda wildcards: code_of(stage, wildcards.paper)
+
+    @staticmethod
+    def tools(*modules: str) -> list[str]:
+        """Every file that some modules of this project load."""
+        return files_of(frozenset(modules), Path.cwd())
+
+    @staticmethod
+    def references(wildcards: Any) -> list[str]:
+        """Reference data of the wildcard's paper."""
+        return sorted(path.as_posix() for path in Path("papers", wildcards.paper, "reference").glob("*.csv"))

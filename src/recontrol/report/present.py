@@ -1,0 +1,298 @@
+"""Views of claims for pages and command line: panels of numbers with the digits that differ, readings in words."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from fractions import Fraction
+from typing import Any
+
+from recontrol.report import numbers
+from recontrol.report.collect import Claim, Finding
+
+MAX_FOUND = 3
+GUARD = 2
+Grid = list[list[numbers.Cell | None]]
+
+
+@dataclass(frozen=True)
+class CellView:
+    """One cell of a panel: text in pieces (piece, differs), whether the claim is about it, distance in words."""
+
+    pieces: list[tuple[str, bool]]
+    counted: bool
+    distance: str = ""
+
+
+@dataclass(frozen=True)
+class Panel:
+    """A printed or found matrix beside the others; ``finding`` is ``None`` for the print."""
+
+    label: str
+    finding: Finding | None
+    rows: list[list[CellView]]
+    agreeing: int = 0
+    counted: int = 0
+
+
+def counted_cells(panel: Panel) -> list[CellView]:
+    """Return the cells of a panel that the claim is about, row by row."""
+    return [cell for row in panel.rows for cell in row if cell.counted]
+
+
+def plain(value: Fraction | float) -> str:
+    """Return a distance in units of the last printed place, short."""
+    size = abs(Fraction(repr(value)) if isinstance(value, float) else Fraction(value))
+    if size == 0:
+        return "0"
+    if size < Fraction(1, 1000):
+        return "< 0.001"
+    if size >= 10**6:
+        return numbers.significant(size, 2)
+    return f"{round(size):,}".replace(",", "\N{THIN SPACE}") if size >= 100 else numbers.significant(size, 2)
+
+
+def fitting(claim: Claim, finding: Finding) -> Grid | None:
+    """Return the found cells laid out as the printed ones, or ``None`` when there are none or the shapes differ."""
+    rows, cells = claim.rows, finding.cells
+    if rows is None or cells is None or claim.mask is None:
+        return None
+    return cells if [len(row) for row in cells] == [len(row) for row in rows] else None
+
+
+def distances(claim: Claim, finding: Finding) -> list[tuple[int, int, float, bool]]:
+    """Return (row, column, distance in last-place units, agrees) of every compared cell, the largest first."""
+    found = [
+        (row, column, float(entry.get("units_in_last_place") or 0), entry.get("agrees") == "yes")
+        for (row, column), entry in finding.entries.items()
+    ]
+    return sorted(found, key=lambda item: (-item[2], item[0], item[1]))
+
+
+def far(claim: Claim, finding: Finding) -> list[tuple[int, int, float, bool]]:
+    """Return the compared cells that do not agree, the largest distance first."""
+    return [item for item in distances(claim, finding) if not item[3]]
+
+
+def panels(claim: Claim) -> list[Panel]:
+    """Return the print and beside it what the readings that matter found, each cell with its differing digits."""
+    if claim.rows is None or claim.mask is None:
+        return []
+    ranked = sorted(claim.findings, key=lambda f: (f is not claim.decisive, f.agrees != "yes", f.kind == "explanation"))
+    shown = [finding for finding in ranked if fitting(claim, finding) is not None][:MAX_FOUND]
+    return [_printed_panel(claim, shown[0] if shown else None), *(_found_panel(claim, finding) for finding in shown)]
+
+
+def _printed_panel(claim: Claim, against: Finding | None) -> Panel:
+    rows: list[list[CellView]] = []
+    cells = fitting(claim, against) if against else None
+    for i, row in enumerate(claim.rows or []):
+        rows.append([])
+        for j, text in enumerate(row):
+            shown, counted = numbers.pretty_print(text), _counted(claim, i, j)
+            cell = cells[i][j] if cells else None
+            differs = bool(counted and cell and against and _differs(against, i, j))
+            pieces = numbers.mark(shown, numbers.write_like(cell, text)) if differs and cell else [(shown, False)]
+            rows[-1].append(CellView(pieces, counted))
+    return Panel("printed", None, rows)
+
+
+def _found_panel(claim: Claim, finding: Finding) -> Panel:
+    cells = fitting(claim, finding)
+    rows: list[list[CellView]] = []
+    agreeing = total = 0
+    for i, row in enumerate(claim.rows or []):
+        rows.append([])
+        for j, text in enumerate(row):
+            cell = cells[i][j] if cells else None
+            counted = cell is not None and _counted(claim, i, j)
+            differs = counted and _differs(finding, i, j)
+            agreeing, total = agreeing + (counted and not differs), total + counted
+            rows[-1].append(_cell_view(cell, text, counted, finding.entries.get((i + 1, j + 1)) if differs else None))
+    return Panel(finding.name, finding, rows, agreeing, total)
+
+
+def _counted(claim: Claim, i: int, j: int) -> bool:
+    return claim.mask is None or claim.mask[i][j]
+
+
+def _differs(finding: Finding, i: int, j: int) -> bool:
+    entry = finding.entries.get((i + 1, j + 1))
+    return entry is not None and entry.get("agrees") != "yes"
+
+
+def _cell_view(cell: numbers.Cell | None, text: str, counted: bool, differing: dict[str, Any] | None) -> CellView:
+    if cell is None:
+        return CellView([("·", False)], False)
+    shown, printed = numbers.write_like(cell, text), numbers.pretty_print(text)
+    if differing is None:
+        return CellView([(printed if counted else shown, False)], counted)
+    for extra in range(1, 6):
+        if shown != printed:
+            break
+        shown = numbers.write_like(cell, text, extra)
+    words = f"{plain(float(differing.get('units_in_last_place') or 0))} units of the last place from the print"
+    return CellView(numbers.mark(shown, printed), counted, words)
+
+
+def found_text(claim: Claim, finding: Finding) -> str:
+    """Return what a reading found in one line."""
+    if finding.error:
+        return finding.error.strip().splitlines()[0]
+    cells = fitting(claim, finding)
+    if cells is not None and claim.rows is not None:
+        counted = [(cell, text) for cell, text in _compared(claim, cells) if cell is not None]
+        if len(counted) == 1:
+            cell, text = counted[0]
+            plainly = finding.strength == "exact" and numbers.distance(cell, numbers.write_like(cell, text)) == 0
+            return numbers.write_like(cell, text, 0 if plainly else GUARD)
+        compared = distances(claim, finding)
+        agreeing = len(compared) - len(far(claim, finding))
+        return f"{agreeing} of {len(compared)} entries agree"
+    if finding.cases:
+        yes = sum(case.get("agrees") == "yes" for _, case in finding.cases)
+        return f"{yes} of {len(finding.cases)} cases agree"
+    return one_line(finding.value)
+
+
+def _compared(claim: Claim, cells: Grid) -> list[tuple[numbers.Cell | None, str]]:
+    """Return (found, printed) of the cells that the claim is about."""
+    return [
+        (cells[i][j], text)
+        for i, row in enumerate(claim.rows or [])
+        for j, text in enumerate(row)
+        if _counted(claim, i, j) and numbers.is_number(text)
+    ]
+
+
+def one_line(value: Any) -> str:
+    """Return any artifact value in one line."""
+    if value is None:
+        return ""
+    if isinstance(value, bool):
+        return "true" if value else "false"
+    if isinstance(value, str) and numbers.to_fraction(value) is None:
+        lines = value.strip().splitlines()
+        return value if len(lines) <= 1 else f"{len(lines)} rows"
+    cells = numbers.decode(value)
+    if cells is not None:
+        if sum(map(len, cells)) == 1:
+            return numbers.write(cells[0][0])
+        if len(cells) == 1 and len(cells[0]) <= 6:
+            return "(" + ", ".join(numbers.write(cell, 5) for cell in cells[0]) + ")"
+        return f"{len(cells)} × {max(map(len, cells))} matrix"
+    if isinstance(value, dict):
+        inner = [f"{name} {one_line(item)}" for name, item in value.items() if one_line(item)]
+        return ", ".join(inner[:4]) + (" …" if len(inner) > 4 else "")
+    if isinstance(value, list):
+        return ", ".join(one_line(item) for item in value[:4]) + (" …" if len(value) > 4 else "")
+    return str(value)
+
+
+def distance_text(claim: Claim, finding: Finding) -> str:
+    """Return the largest distance in units of the last printed place; empty where there is none."""
+    given = finding.raw.get("units_in_last_place")
+    return plain(float(given)) if isinstance(given, (int, float)) else ""
+
+
+def digits_text(claim: Claim, finding: Finding) -> str:
+    """Return how many leading digits agree, of how many printed; for the compared cell with the fewest."""
+    given = finding.raw.get("digits")
+    if not isinstance(given, int):
+        return ""
+    worst = [entry for entry in finding.entries.values() if entry.get("digits") == given]
+    printed = {entry.get("digits_printed") for entry in worst}
+    return f"{given} of {printed.pop()}" if len(printed) == 1 else str(given)
+
+
+def difference_text(claim: Claim, finding: Finding) -> str:
+    """Return the absolute and the relative difference of a single printed number; empty for matrices."""
+    cells = fitting(claim, finding)
+    counted = _compared(claim, cells) if cells is not None else []
+    if len(counted) != 1:
+        return ""
+    cell, text = counted[0]
+    model = numbers.parse_print(text)
+    if model is None or cell is None or cell.im is not None:
+        return ""
+    off = cell.re - model.value
+    relative = f", relative {numbers.significant(off / model.value, 2)}" if model.value else ""
+    return f"{numbers.significant(off, 2)}{relative}"
+
+
+def tree(value: Any) -> tuple[str, Any]:
+    """Return a value for nested display: (kind, content) with kind text, matrix, map or list."""
+    if isinstance(value, dict) and numbers.decode(value) is None:
+        return "map", [(str(name), tree(item)) for name, item in value.items()]
+    if isinstance(value, str):
+        grid = numbers.cells_of_text(value) if "\n" in value else None
+        return ("text", value) if grid is None else ("matrix", grid)
+    cells = numbers.decode(value)
+    if cells is not None and sum(map(len, cells)) > 1:
+        return "matrix", [[numbers.write(cell) for cell in row] for row in cells]
+    if isinstance(value, list):
+        return "list", [tree(item) for item in value]
+    return "text", one_line(value)
+
+
+def is_nested(value: Any) -> bool:
+    """Say whether a value needs more than one line."""
+    return tree(value)[0] != "text"
+
+
+def case_finding(finding: Finding, case: dict[str, Any]) -> Finding:
+    """Return one case of a reading as a finding of its own, to be shown by the same functions."""
+    empty = {"value": None, "units_in_last_place": None, "digits": None, "error": None}
+    return Finding({**finding.raw, **empty, "cases": None, "evidence": None, **case}, finding.entry)
+
+
+SOLVER_COLUMNS = {
+    "solver": "solver",
+    "outcome": "outcome",
+    "status": "status",
+    "words": "in its own words",
+    "value": "value at its point",
+    "reported": "value it reports",
+    "least margin": "least margin",
+    "iterations": "iterations",
+    "reason": "why not taken as it is",
+}
+"""Keys of a solver record to show and their headings; what varies from run to run (times) is not among them."""
+
+
+def solver_columns(rows: list[dict[str, Any]]) -> dict[str, str]:
+    """Return the columns that some row fills."""
+    return {key: name for key, name in SOLVER_COLUMNS.items() if any(solver_cell(row, key) for row in rows)}
+
+
+def solver_cell(row: dict[str, Any], key: str) -> str:
+    """Return one cell of the solver table."""
+    if key == "least margin":
+        margins = row.get("margins")
+        known = [value for value in margins.values() if value is not None] if isinstance(margins, dict) else []
+        return one_line(min(known)) if known and all(isinstance(value, (int, float)) for value in known) else ""
+    return one_line(row.get(key))
+
+
+def summary(claim: Claim) -> str:
+    """Return one plain sentence that says why the verdict is what it is, from the findings alone."""
+    decisive = claim.decisive
+    name = f"“{decisive.name}”" if decisive else "none"
+    tried = f"{len(claim.findings)} reading{'s' * (len(claim.findings) != 1)} tried"
+    sentences = {
+        "reproduced": f"The paper's own definition gives the print: reading {name}.",
+        "reproduced-under-assumption": f"The paper leaves this open; the assumption {name} gives the print.",
+        "certified": f"The published value satisfies the condition: {name}. Its digits are not unique and not judged.",
+        "not-reproduced": f"{tried}, none gives the print.",
+        "unspecified": f"Not given in the paper: {', '.join(claim.missing) or 'what is needed to compare'}.",
+        "failed": "The computation did not come to an end; nothing follows about the paper.",
+        "erratum": _erratum_sentence(claim),
+    }
+    return sentences.get(claim.verdict, "")
+
+
+def _erratum_sentence(claim: Claim) -> str:
+    definitions = [f"“{finding.name}”" for finding in claim.findings if finding.kind == "definition"]
+    start = f"The paper's own definition, {', '.join(definitions)}, does not give the print"
+    start = start if definitions else "No assumption gives the print"
+    why = [f"“{finding.name}”" for finding in claim.explanations]
+    return f"{start}; " + (f"the print is explained by {', '.join(why)}." if why else "no explanation was found.")
