@@ -45,6 +45,8 @@ def parser() -> argparse.ArgumentParser:
     add("new", _new, "start a paper folder from a skeleton", ("KEY", "first author and year, such as smith2024"))
     verify = add("verify", _verify, "verify certificates, standing alone and against the printed data")
     verify.add_argument("arguments", nargs=argparse.REMAINDER, metavar="FILE", help="certificate files")
+    add("cite", _cite, "print how to cite a claim or an artifact", ("ID", "an identity, such as wan2014/eq44-K"))
+    add("diff", _diff, "compare two runs", ("RUN_A", "a folder that holds results/"), ("RUN_B", "another one"))
     return top
 
 
@@ -90,6 +92,21 @@ def _verify(options: argparse.Namespace) -> int:
     from importlib import import_module
 
     return int(import_module("recontrol.lmi.verify").main(options.arguments))
+
+
+def _cite(options: argparse.Namespace) -> int:
+    from recontrol.report import cite
+
+    print(cite.text(options.root, options.id))
+    return 0
+
+
+def _diff(options: argparse.Namespace) -> int:
+    from recontrol.report import difference
+
+    lines = difference.between(Path(options.run_a), Path(options.run_b))
+    print("\n".join(lines) if lines else "The two runs agree.")
+    return 1 if lines else 0
 
 
 if __name__ == "__main__":

@@ -65,7 +65,7 @@ def verdicts() -> list[dict[str, Any]]:
             finding("K.q1", "assumption", "yes", value="-0.46751234+1.07858i -0.12201+0.41828i", digits=4,
                     units_in_last_place=0.3, entries=poles, note="weights-q1")]),
         claim("eq55-11", "erratum", [
-            finding("A - BK", "definition", "no", value="\n".join([" ".join(direct), *shift]).replace("\\\\n", "\n"),
+            finding("A - BK", "definition", "no", value="\n".join([" ".join(direct), *shift]),
                     units_in_last_place=1179.0, digits=0, entries=no, source=source,
                     evidence={"q": 1, "spectrum": [[-0.1, 0.2], [0.3, -4.5]], "deeper": {"margin": {"exact": "1/3"}}}),
             finding("A - 2BK", "explanation", "yes", value="\n".join([" ".join(twice), *shift]), entries=yes,
@@ -97,7 +97,7 @@ def write(root: Path) -> Path:
         shutil.copyfile(DATA / name, folder / name)
     (folder / "readings" / "loops.py").write_text(READINGS)
     content = {"paper": KEY, "claims": verdicts()}
-    (results / "verdicts.json").write_text(json.dumps(content).replace("\\\\n", "\n"))
+    (results / "verdicts.json").write_text(json.dumps(content))
     quantities = [
         {"name": "margin", "case": "yaw", "value": {"value": 12.25, "error": 1e-9}, "unit": "dB", "strength": "float",
          "description": "gain margin of the loop $L(s)$"},

@@ -39,6 +39,11 @@ def counted_cells(panel: Panel) -> list[CellView]:
     return [cell for row in panel.rows for cell in row if cell.counted]
 
 
+def printed_cells(claim: Claim) -> list[str]:
+    """Return the printed cells that the claim is about; none for words."""
+    return [text for i, row in enumerate(claim.rows or []) for j, text in enumerate(row) if is_counted(claim, i, j)]
+
+
 def plain(value: Fraction | float) -> str:
     """Return a distance in units of the last printed place, short."""
     size = abs(Fraction(repr(value)) if isinstance(value, float) else Fraction(value))
@@ -88,7 +93,7 @@ def _printed_panel(claim: Claim, against: Finding | None) -> Panel:
     for i, row in enumerate(claim.rows or []):
         rows.append([])
         for j, text in enumerate(row):
-            shown, counted = numbers.pretty_print(text), _counted(claim, i, j)
+            shown, counted = numbers.pretty_print(text), is_counted(claim, i, j)
             cell = cells[i][j] if cells else None
             differs = bool(counted and cell and against and _differs(against, i, j))
             pieces = numbers.mark(shown, numbers.write_like(cell, text)) if differs and cell else [(shown, False)]
@@ -104,14 +109,15 @@ def _found_panel(claim: Claim, finding: Finding) -> Panel:
         rows.append([])
         for j, text in enumerate(row):
             cell = cells[i][j] if cells else None
-            counted = cell is not None and _counted(claim, i, j)
+            counted = cell is not None and is_counted(claim, i, j)
             differs = counted and _differs(finding, i, j)
             agreeing, total = agreeing + (counted and not differs), total + counted
             rows[-1].append(_cell_view(cell, text, counted, finding.entries.get((i + 1, j + 1)) if differs else None))
     return Panel(finding.name, finding, rows, agreeing, total)
 
 
-def _counted(claim: Claim, i: int, j: int) -> bool:
+def is_counted(claim: Claim, i: int, j: int) -> bool:
+    """Say whether the claim is about the printed cell in row i and column j (from zero)."""
     return claim.mask is None or claim.mask[i][j]
 
 
@@ -160,7 +166,7 @@ def _compared(claim: Claim, cells: Grid) -> list[tuple[numbers.Cell | None, str]
         (cells[i][j], text)
         for i, row in enumerate(claim.rows or [])
         for j, text in enumerate(row)
-        if _counted(claim, i, j) and numbers.is_number(text)
+        if is_counted(claim, i, j) and numbers.is_number(text)
     ]
 
 
