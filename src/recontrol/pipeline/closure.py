@@ -36,9 +36,15 @@ def code_of(stage: str, paper: str, root: Path | str = ".") -> list[str]:
     """Files, relative to `root`, that `stage` of `paper` and all earlier stages load, and the runner's own."""
     base = Path(root).resolve()
     earlier = ORDER[: ORDER.index(stage) + 1] if stage in ORDER else (*ORDER, stage)
-    modules = {f"papers.{paper}.{MODULES[name]}" for name in earlier}
+    modules = {module for name in earlier for module in _stage_modules(paper, MODULES[name], base)}
     modules |= {f"recontrol.pipeline.{COMMANDS[name]}" for name in earlier} | {"recontrol.pipeline.__main__"}
     return files_of(frozenset(modules), base)
+
+
+def _stage_modules(paper: str, name: str, base: Path) -> list[str]:
+    """The module of a stage, and all topics of it where it is a package: claims name their functions as topic.name."""
+    topics = sorted(path.stem for path in (base / "papers" / paper / name).glob("[!_]*.py"))
+    return [f"papers.{paper}.{name}", *(f"papers.{paper}.{name}.{topic}" for topic in topics)]
 
 
 @cache

@@ -48,8 +48,8 @@ def _report(keys: list[str]) -> None:
 
     try:
         report.build(Path(), keys)
-    except RecontrolError as error:
-        print(f"recontrol: the report could not be built: {error}", file=sys.stderr)
+    except Exception as error:
+        print(f"recontrol: the report could not be built: {type(error).__name__}: {error}", file=sys.stderr)
     for path in Path("results/report").rglob("*"):
         store.record_path(path).unlink(missing_ok=True)
 
