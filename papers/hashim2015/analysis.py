@@ -10,7 +10,7 @@ from __future__ import annotations
 from typing import Any
 
 import numpy as np
-from flint import acb, arb, arb_mat, fmpq
+from flint import acb, arb, arb_mat, arb_poly, fmpq
 
 from recontrol.exact.ball import has_balls, precision, to_ball
 from recontrol.exact.polynomial import PRECISION, charpoly, is_hurwitz, roots
@@ -163,6 +163,17 @@ def deciding_members(model: Any, data: Any) -> dict[str, np.ndarray]:
         )
         members[name] = full_loop(plant, K, L, block + step * half)
     return members
+
+
+def ball_roots(p: arb_poly) -> list[acb]:
+    """Roots of a real ball polynomial, from its companion matrix."""
+    coefficients = p.coeffs()[:-1]
+    n = len(coefficients)
+    companion = np.full((n, n), fmpq(0), dtype=object)
+    companion[0, :] = [-c for c in reversed(coefficients)]
+    for i in range(1, n):
+        companion[i, i - 1] = fmpq(1)
+    return spectrum(companion)
 
 
 def nearest_match(first: np.ndarray, second: np.ndarray) -> float:

@@ -1,0 +1,157 @@
+"""Section 6.1 to 6.7: the published controller and estimator in the loop."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+from flint import arb, fmpq
+
+from recontrol.exact.ball import precision, to_ball
+from recontrol.exact.linalg import rank
+from recontrol.exact.polynomial import PRECISION, charpoly, is_hurwitz
+
+from .. import analysis, recipe
+from ..identities import ace_null_vector_holds, pitch_error_pole_is_zero
+from ..intervals import kharitonov_fraction
+from ..model import AXES
+from ..readings.formulas import krylov
+from ..readings.gains import inverse_lqr, speed_ratios
+from ..readings.reduced import estimator_gain_sets, gain_box, intersect
+from ..readings.support import coefficient_margins, first_state, printed_reduced, reduced_loop
+
+
+def word_and_abscissa(loops: dict[str, np.ndarray]) -> tuple[dict[str, str], dict[str, arb]]:
+    """Stable or not, and spectral abscissa, of each loop."""
+    words = {name: analysis.word(analysis.stable(M)) for name, M in loops.items()}
+    return words, {name: analysis.abscissa(M) for name, M in loops.items()}
+
+
+def gain_intersection(model: Any, data: Any, K: np.ndarray) -> np.ndarray:
+    """Intersection over the columns of (66) of the enclosures of L_r, as a ball column (3, 1)."""
+    sets = estimator_gain_sets(model, data, K)
+    out = np.empty((3, 1), dtype=object)
+    with precision(PRECISION):
+        for i in range(3):
+            low, high = intersect([column[i] for column in sets])
+            out[i, 0] = arb((low + high) / 2) + arb(0, arb((high - low) / 2).upper())
+    return out
+
+
+def propagate(model: Any, K: np.ndarray, L: np.ndarray) -> dict[str, Any]:
+    """What the sets of K and L_r imply for the estimator poles, B_r and D_r."""
+    plant = recipe.plant_of(model, "yaw")
+    with precision(PRECISION):
+        design = recipe.reduced_matrices(plant, K, L)
+        error = to_ball(plant.A[1:, 1:]) - L @ plant.A[:1, 1:]
+        return {"B_r": design.B, "D_r": design.D, "error poles": analysis.spectrum(error)}
+
+
+def enclosures(data: Any, model: Any, synthesis: Any) -> dict[str, Any]:
+    """Section 6.4 for K of (52) and for K.q1."""
+    out: dict[str, Any] = {"Lr_enclosure": {}, "Br_enclosure": {}, "Dr_enclosure": {}, "error_pole_enclosure": {}}
+    for name, K in (("K of (52)", gain_box(model, data)), ("K.q1", synthesis["gains"]["yaw"]["balls"]["K"])):
+        L = gain_intersection(model, data, K)
+        implied = propagate(model, K, L)
+        out["Lr_enclosure"][name] = L
+        out["Br_enclosure"][name] = implied["B_r"]
+        out["Dr_enclosure"][name] = implied["D_r"]
+        out["error_pole_enclosure"][name] = implied["error poles"]
+    return out
+
+
+def box_stability(data: Any, model: Any) -> dict[str, str]:
+    """Hurwitz over the whole rounding boxes of (52) and of (54), hence the full-order loop by separation."""
+    plant = recipe.plant_of(model, "yaw")
+    with precision(PRECISION):
+        controller = is_hurwitz(charpoly(to_ball(plant.A) - plant.B @ gain_box(model, data)))
+        estimator = is_hurwitz(charpoly(to_ball(plant.A) - data.ball("L") @ plant.C))
+    both = controller and estimator
+    words = {"(52)": controller, "(54)": estimator, "full-order loop, by separation": both}
+    return {name: analysis.word(answer) for name, answer in words.items()}
+
+
+def negative_coefficient(data: Any, model: Any) -> arb:
+    """Characteristic coefficient of s^5 of (66)-(69) fed with y, over the whole rounding box."""
+    plant = recipe.plant_of(model, "yaw")
+    with precision(PRECISION):
+        p = charpoly(reduced_loop(plant, plant.C, **printed_reduced(data.ball)))
+    return coefficient_margins(p)["coefficient of s^5"]
+
+
+def separation_distance(model: Any, data: Any, synthesis: Any) -> dict[str, float]:
+    """Largest distance between a loop's spectrum and that of controller and estimator together."""
+    out = {}
+    for axis in AXES:
+        plant = recipe.plant_of(model, axis)
+        controller = recipe.left_roots(recipe.lqr_spectrum(plant, recipe.CONTROL_WEIGHT))
+        estimator = recipe.estimator_poles(plant, data["weight_high"])
+        error = recipe.exact_poly(estimator[: plant.n - 1])
+        with precision(PRECISION):
+            reduced = analysis.ball_roots(error)
+        full = analysis.as_row(analysis.spectrum(analysis.axis_full_loop(model, synthesis, axis)))
+        corrected = analysis.as_row(analysis.spectrum(analysis.corrected_loop(model, synthesis, axis)))
+        out[f"{axis}: full"] = analysis.nearest_match(full, analysis.as_row([*controller, *estimator]))
+        out[f"{axis}: corrected"] = analysis.nearest_match(corrected, analysis.as_row([*controller, *reduced]))
+    return out
+
+
+def printed_shift(data: Any, model: Any, synthesis: Any) -> float:
+    """Largest eigenvalue shift between the printed and the typed4 compensator, x1 measured."""
+    plant = recipe.plant_of(model, "yaw")
+    design = synthesis["gains"]["yaw"]["balls"]["x1"]["typed4"]
+    with precision(PRECISION):
+        typed = reduced_loop(plant, first_state(plant.n), *(design[name] for name in "ABCD"))
+    printed = analysis.reduced_loops(model, data)["x1 measured, s = +1"]
+    first, second = (analysis.as_row(analysis.spectrum(M)) for M in (printed, typed))
+    return analysis.nearest_match(first, second)
+
+
+def ace_rank(data: Any, case: str) -> int:
+    """Rank of the controllability matrix of (55) with its input, the first unit column."""
+    A = data["A_ce" if case == "ace-print" else "A_ce_one"]
+    return rank(krylov(A, first_state(A.shape[0]).T))
+
+
+def quantities(data: Any, model: Any, synthesis: Any) -> dict[str, Any]:
+    """Names of paper.yaml, section 6."""
+    plant = recipe.plant_of(model, "yaw")
+    ace = {"ace-print": data["A_ce"], "ace-one": data["A_ce_one"]}
+    ace_words, ace_abscissae = word_and_abscissa(ace)
+    full_words, full_abscissae = word_and_abscissa(analysis.full_loops(model, data, synthesis))
+    member_words, member_abscissae = word_and_abscissa(analysis.deciding_members(model, data))
+    red_words, red_abscissae = word_and_abscissa(analysis.reduced_loops(model, data))
+    wrong_words, wrong_abscissae = word_and_abscissa(analysis.printed_sign_loops(model, data))
+    signs = {f"{axis}, {name}": M for axis in AXES for name, M in analysis.sign_loops(model, synthesis, axis).items()}
+    sign_words, sign_abscissae = word_and_abscissa(signs)
+    axes = {f"{axis}: full": analysis.axis_full_loop(model, synthesis, axis) for axis in AXES} | {
+        f"{axis}: corrected": analysis.corrected_loop(model, synthesis, axis) for axis in AXES
+    }
+    axis_words, axis_abscissae = word_and_abscissa(axes)
+    return {
+        "inverse_lqr_diagonal": inverse_lqr(plant, gain_box(model, data)),
+        "box_stability": box_stability(data, model),
+        "estimator_controller_ratio": speed_ratios(plant, data),
+        "ace_stability": ace_words,
+        "ace_abscissa": ace_abscissae,
+        "ace_input_rank": {case: fmpq(ace_rank(data, case)) for case in ace},
+        "full_loop_stability": full_words,
+        "full_loop_abscissa": full_abscissae,
+        "ace_member_stability": member_words,
+        "ace_member_abscissa": member_abscissae,
+        "ace_zero_eigenvalue": ace_null_vector_holds(plant),
+        **enclosures(data, model, synthesis),
+        "printed_reduced_stability": red_words,
+        "printed_reduced_abscissa": red_abscissae,
+        "printed_reduced_coefficient": negative_coefficient(data, model),
+        "kharitonov_fraction": kharitonov_fraction(model, data),
+        "printed_sign_stability": wrong_words,
+        "printed_sign_abscissa": wrong_abscissae,
+        "x1_design_sign_stability": sign_words,
+        "x1_design_sign_abscissa": sign_abscissae,
+        "printed_reduced_shift": printed_shift(data, model, synthesis),
+        "axis_loop_stability": axis_words,
+        "axis_loop_abscissa": axis_abscissae,
+        "separation_distance": separation_distance(model, data, synthesis),
+        "pitch_zero_error_pole": pitch_error_pole_is_zero(),
+    }
