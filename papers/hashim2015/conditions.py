@@ -1,7 +1,7 @@
 """The matrix inequalities of this paper's analysis, each written once.
 
 The paper prints none. States, input and time are left in the paper's own units, all of order one; the smallest number
-is the pitch coefficient 7.1138e-3.
+is the pitch coefficient 7.1138e-3. Stability of a loop and of a rounding box: `recontrol.lmi.loops`.
 """
 
 from __future__ import annotations
@@ -22,33 +22,16 @@ def cost(P: Any) -> Any:
     return trace(P)
 
 
-@nonnegative
-def dual(Z: Any) -> Any:
-    """Z >= 0, (n + 1, n + 1): second moment of state and input along a trajectory."""
-    return Z
-
-
-def dual_balance(Z11: Any, Z12: Any, A: Any, B: Any, identity: Any) -> Any:
-    """A Z11 + Z11 A' + B Z12' + Z12 B' + I = 0."""
-    return he(A @ Z11) + he(B @ Z12.T) + identity
-
-
 @positive
-def energy(P: Any) -> Any:
-    """P > 0."""
-    return P
+def third_weight_is_negative(K: Any, a: Any) -> Any:
+    """-q3 > 0 for the only diagonal Q that can give K (1, 4) with R = 1; a (1, 4) is the first row of A.
 
-
-@positive
-def decay(P: Any, M: Any) -> Any:
-    """-(M'P + PM) > 0: with `energy`, every eigenvalue of M (n, n) has a negative real part."""
-    return -he(P @ M)
-
-
-@positive
-def box(P: Any, T: Any, M0: Any, E: Any, F: Any) -> Any:
-    """[-(M0'P + PM0) - F'TF, -PE; -E'P, T] > 0 for a diagonal T.
-
-    With `energy`, M0 + sum_k d_k E_k F_k is stable for all abs(d_k) <= 1, E_k the columns of E and F_k the rows of F.
+    In controller form p(s)p(-s) - a(s)a(-s) = sum q_i (-1)^(n-i) s^(2(n-i)), which has -q3 at s^2: 2 p2 p0 - p1^2 less
+    the same of a(s).
     """
-    return block([[-he(P @ M0) - F.T @ T @ F, -(P @ E)], [T]])
+    p = K - a
+    return (
+        2 * (p[0:1, 1:2] @ p[0:1, 3:4] - a[0:1, 1:2] @ a[0:1, 3:4])
+        - p[0:1, 2:3] @ p[0:1, 2:3]
+        + a[0:1, 2:3] @ a[0:1, 2:3]
+    )

@@ -5,9 +5,9 @@ from __future__ import annotations
 import numpy as np
 from flint import Ordering, fmpq, fmpq_mpoly_ctx
 
-from .recipe import Plant, reduced_matrices
 from .readings.support import full_loop, reduced_loop
-from .readings.symbols import symbolic_charpoly
+from .readings.symbols import lifted, symbolic_charpoly
+from .recipe import Plant, reduced_matrices
 
 
 def _symbols(names: list[str]) -> dict[str, np.ndarray]:
@@ -31,13 +31,14 @@ def ace_loop(plant: Plant) -> tuple[np.ndarray, np.ndarray]:
     one = s["k1"][0, 0] * 0 + 1
     K = np.hstack([s[name] for name in names[:n]])
     L = np.vstack([s[name] for name in names[n:]])
-    Ah = plant.A * one - plant.B @ K - L @ plant.C
+    A = lifted(plant.A, one)
+    Ah = A - plant.B @ K - L @ plant.C
     Ah[1, 0] = one * 0
-    vector = np.full((2 * n, 1), one * 0, dtype=object)
+    vector = lifted(np.full((2 * n, 1), fmpq(0), dtype=object), one)
     vector[n - 1, 0] = s["k1"][0, 0]
     vector[n, 0] = one * plant.A[0, n - 1] - s[f"k{n}"][0, 0]
     vector[2 * n - 1, 0] = s["k1"][0, 0]
-    return full_loop(Plant(plant.A * one, plant.B, plant.C), K, L, Ah), vector
+    return full_loop(Plant(A, plant.B, plant.C), K, L, Ah), vector
 
 
 def ace_null_vector_holds(plant: Plant) -> bool:
@@ -52,7 +53,7 @@ def pitch_error_pole_is_zero() -> bool:
     one = s["l"][0, 0] * 0 + 1
     zero, unit = fmpq(0), fmpq(1)
     plant = Plant(
-        np.array([[zero, zero], [unit, zero]], dtype=object) * one,
+        lifted(np.array([[zero, zero], [unit, zero]], dtype=object), one),
         np.array([[unit], [zero]], dtype=object),
         np.array([[unit, zero]], dtype=object),
     )

@@ -11,7 +11,7 @@ from recontrol.exact.polynomial import is_hurwitz
 
 from . import recipe
 from .readings.support import first_state, printed_reduced, reduced_loop
-from .readings.symbols import symbolic_charpoly
+from .readings.symbols import lifted, symbolic_charpoly
 
 PATTERNS = ((0, 0, 1, 1), (1, 1, 0, 0), (0, 1, 1, 0), (1, 0, 0, 1))
 
@@ -43,10 +43,7 @@ def coefficient_polynomials(model: Any, data: Any) -> list[fmpq_mpoly]:
             boxed[name][index] = next(deviations) * half[name][index] + M[index]
     one = boxed["D_r"][0, 0] * 0 + 1
     loop = reduced_loop(plant, first_state(plant.n), **boxed)
-    symbolic = np.empty(loop.shape, dtype=object)
-    for index in np.ndindex(loop.shape):
-        symbolic[index] = one * loop[index]
-    return symbolic_charpoly(symbolic)[:-1]
+    return symbolic_charpoly(lifted(loop, one))[:-1]
 
 
 def coefficient_range(c: fmpq_mpoly, fraction: fmpq) -> tuple[fmpq, fmpq]:

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 from typing import Any
 
-from . import design, experiments, extensions, loops, structure
+from ..experiments import experiment_quantities
+from . import design, loops, structure
 
 
 def quantities(data: Any, model: Any, synthesis: Any, simulation: Any) -> dict[str, Any]:
@@ -13,6 +14,5 @@ def quantities(data: Any, model: Any, synthesis: Any, simulation: Any) -> dict[s
         **design.quantities(data, model, synthesis),
         **loops.quantities(data, model, synthesis),
         **structure.quantities(data, model),
-        **experiments.quantities(simulation),
-        **extensions.quantities(simulation),
+        **experiment_quantities(simulation),
     }

@@ -1,22 +1,17 @@
-"""Section 5: gains, poles, transfer functions of the corrected design, and how sharply the print identifies the recipe."""
+"""Section 5: gains, poles, the corrected design as a transfer function, how sharply the print identifies the recipe."""
 
 from __future__ import annotations
 
 from typing import Any
 
 import numpy as np
-from flint import acb, fmpq, fmpq_poly
+from flint import fmpq, fmpq_poly
 
-from recontrol.exact.ball import midpoint, precision
+from recontrol.exact.ball import precision
 from recontrol.exact.polynomial import PRECISION, charpoly, left_roots, place_estimator, reflect
 
 from .. import recipe
 from ..model import AXES
-
-
-def column(poles: list[acb]) -> list[acb]:
-    """Poles as they are stored."""
-    return list(poles)
 
 
 def transfer_function(A: np.ndarray, B: np.ndarray, C: np.ndarray, D: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
@@ -38,26 +33,10 @@ def kalman_is_dual(plant: recipe.Plant, weight: fmpq) -> bool:
     return bool(filter_spectrum == recipe.lqr_spectrum(plant, weight))
 
 
-def largest_change(new: np.ndarray, old: np.ndarray) -> float:
-    """Largest entry of abs(new - old) over the largest entry of abs(old)."""
-    return float(np.abs(midpoint(new) - midpoint(old)).max() / np.abs(midpoint(old)).max())
-
-
 def typed_gain(plant: recipe.Plant, weight: fmpq) -> np.ndarray:
     """L.typed4, exact."""
     typed: fmpq_poly = recipe.typed_poly(recipe.typed(recipe.estimator_poles(plant, weight)))
     return place_estimator(plant.A, plant.C, typed)
-
-
-def rounding_shift(synthesis: Any) -> dict[str, float]:
-    """Relative change of each pitch gain when the coefficient is 0.0071 in place of 7.1138e-3."""
-    tf, ss = (synthesis["gains"][axis]["balls"] for axis in ("pitch-tf", "pitch-ss"))
-    return {
-        "K": largest_change(ss["K"], tf["K"]),
-        "L": largest_change(ss["L"]["exact"], tf["L"]["exact"]),
-        "L_r, x1 measured": largest_change(ss["x1"]["exact"]["L"], tf["x1"]["exact"]["L"]),
-        "L_r, y measured": largest_change(ss["corrected"]["L"], tf["corrected"]["L"]),
-    }
 
 
 def rejected_table(synthesis: Any) -> dict[str, list[float]]:
@@ -74,9 +53,7 @@ def quantities(data: Any, model: Any, synthesis: Any) -> dict[str, Any]:
     plants = {axis: recipe.plant_of(model, axis) for axis in AXES}
     balls = {axis: synthesis["gains"][axis]["balls"] for axis in AXES}
     weight = data["weight_high"]
-    corrected = {
-        axis: tuple(transfer_function(*(balls[axis]["corrected"][name] for name in "ABCD"))) for axis in AXES
-    }
+    corrected = {axis: tuple(transfer_function(*(balls[axis]["corrected"][name] for name in "ABCD"))) for axis in AXES}
     found = synthesis["identifiability"]
     return {
         "gain_K": {axis: balls[axis]["K"] for axis in AXES},
@@ -86,13 +63,11 @@ def quantities(data: Any, model: Any, synthesis: Any) -> dict[str, Any]:
         "gain_Lr_typed4": {axis: balls[axis]["x1"]["typed4"]["L"] for axis in AXES},
         "gain_Lr_corrected": {axis: balls[axis]["corrected"]["L"] for axis in AXES},
         "controller_poles": {
-            axis: column(left_roots(recipe.lqr_spectrum(plants[axis], recipe.CONTROL_WEIGHT))) for axis in AXES
+            axis: left_roots(recipe.lqr_spectrum(plants[axis], recipe.CONTROL_WEIGHT)) for axis in AXES
         },
-        "estimator_poles": {axis: column(recipe.estimator_poles(plants[axis], weight)) for axis in AXES},
+        "estimator_poles": {axis: recipe.estimator_poles(plants[axis], weight) for axis in AXES},
         "kalman_is_dual": {axis: kalman_is_dual(plants[axis], weight) for axis in AXES},
-        "riccati_trace": {
-            axis: [synthesis["lqr"][axis]["trace"][end] for end in ("lower", "upper")] for axis in AXES
-        },
+        "riccati_trace": {axis: [synthesis["lqr"][axis]["trace"][end] for end in ("lower", "upper")] for axis in AXES},
         "gain_K_spread": {
             f"{axis}: {route}": spread
             for axis in AXES
@@ -105,5 +80,4 @@ def quantities(data: Any, model: Any, synthesis: Any) -> dict[str, Any]:
         "q_interval_K": {end: found["K"][end] for end in ("lower", "upper")},
         "q_interval_poles": {end: found["poles"][end] for end in ("lower", "upper")},
         "L_last_move": found["L_last"]["move"],
-        "pitch_rounding_shift": rounding_shift(synthesis),
     }

@@ -96,17 +96,6 @@ def separation_distance(model: Any, data: Any, synthesis: Any) -> dict[str, floa
     return out
 
 
-def printed_shift(data: Any, model: Any, synthesis: Any) -> float:
-    """Largest eigenvalue shift between the printed and the typed4 compensator, x1 measured."""
-    plant = recipe.plant_of(model, "yaw")
-    design = synthesis["gains"]["yaw"]["balls"]["x1"]["typed4"]
-    with precision(PRECISION):
-        typed = reduced_loop(plant, first_state(plant.n), *(design[name] for name in "ABCD"))
-    printed = analysis.reduced_loops(model, data)["x1 measured, s = +1"]
-    first, second = (analysis.as_row(analysis.spectrum(M)) for M in (printed, typed))
-    return analysis.nearest_match(first, second)
-
-
 def ace_rank(data: Any, case: str) -> int:
     """Rank of the controllability matrix of (55) with its input, the first unit column."""
     A = data["A_ce" if case == "ace-print" else "A_ce_one"]
@@ -141,15 +130,14 @@ def quantities(data: Any, model: Any, synthesis: Any) -> dict[str, Any]:
         "ace_member_abscissa": member_abscissae,
         "ace_zero_eigenvalue": ace_null_vector_holds(plant),
         **enclosures(data, model, synthesis),
-        "printed_reduced_stability": red_words,
-        "printed_reduced_abscissa": red_abscissae,
-        "printed_reduced_coefficient": negative_coefficient(data, model),
+        "printed_loop_stability": red_words,
+        "printed_loop_abscissa": red_abscissae,
+        "printed_loop_coefficient": negative_coefficient(data, model),
         "kharitonov_fraction": kharitonov_fraction(model, data),
         "printed_sign_stability": wrong_words,
         "printed_sign_abscissa": wrong_abscissae,
         "x1_design_sign_stability": sign_words,
         "x1_design_sign_abscissa": sign_abscissae,
-        "printed_reduced_shift": printed_shift(data, model, synthesis),
         "axis_loop_stability": axis_words,
         "axis_loop_abscissa": axis_abscissae,
         "separation_distance": separation_distance(model, data, synthesis),

@@ -33,9 +33,7 @@ def slow_pair_to_zeros(plant: recipe.Plant, data: Any) -> arb:
 def quantities(data: Any, model: Any) -> dict[str, Any]:
     """Names of paper.yaml, section 6.8."""
     plants = {axis: recipe.plant_of(model, axis) for axis in AXES}
-    matrices = {
-        f"{axis}, {name}": matrix for axis in AXES for name, matrix in observability(plants[axis]).items()
-    }
+    matrices = {f"{axis}, {name}": matrix for axis in AXES for name, matrix in observability(plants[axis]).items()}
     singular = {name: np.linalg.svd(matrix.astype(float), compute_uv=False) for name, matrix in matrices.items()}
     return {
         "plant_poles": {axis: roots(plants[axis].a) for axis in AXES},

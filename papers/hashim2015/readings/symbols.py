@@ -73,6 +73,14 @@ def stack(*rows: np.ndarray) -> np.ndarray:
     return out
 
 
+def lifted(M: np.ndarray, one: fmpq_mpoly) -> np.ndarray:
+    """Rational matrix as polynomials; entry by entry, since numpy takes a polynomial for a sequence."""
+    out = np.empty(M.shape, dtype=object)
+    for index in np.ndindex(M.shape):
+        out[index] = one * M[index]
+    return out
+
+
 def symbolic_charpoly(A: np.ndarray) -> list[fmpq_mpoly]:
     """Coefficients c_0..c_n of det(sI - A), c_n = 1, by the Faddeev-LeVerrier recursion."""
     n = A.shape[0]

@@ -1,0 +1,50 @@
+"""Data of the certificates, straight from paper.yaml: the verifier calls `problem_data` again and compares."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+
+from recontrol.exact.ball import to_ball
+from recontrol.exact.rational import identity, zeros
+from recontrol.lmi import loops
+
+from . import recipe
+from .model import plants
+from .readings.support import first_state, printed_reduced, reduced_loop
+
+CONTROLLER_BOX = "box of (52)"
+FULL_BOX = "boxes of (52) and (54)"
+REDUCED_BOX = "box of (66)-(69), x1 measured"
+
+
+def problem_data(data: Any, case: str) -> dict[str, np.ndarray]:
+    """Exact data by name; ``case`` is an axis or one of the boxes above, anything else has none."""
+    found = plants(data)
+    yaw = recipe.Plant(**found["yaw"])
+    if case == CONTROLLER_BOX:
+        return {"K": _gain_box(yaw, data), "a": yaw.A[:1]}
+    if case == FULL_BOX:
+        K, L = _gain_box(yaw, data), data.ball("L")
+        return {"M": np.block([[yaw.A - yaw.B @ K, yaw.B @ K], [zeros(yaw.n), yaw.A - L @ yaw.C]])}
+    if case == REDUCED_BOX:
+        return _reduced_box(yaw, data)
+    plant = found.get(case)
+    if plant is None:
+        return {}
+    return {"A": plant["A"], "B": plant["B"], "Q": plant["C"].T @ plant["C"], "R": identity(1)}
+
+
+def _gain_box(plant: recipe.Plant, data: Any) -> np.ndarray:
+    """K (1, 4) of (52) and (6), the whole rounding box."""
+    return to_ball(plant.A[:1]) - data.ball("A_c")[:1]
+
+
+def _reduced_box(plant: recipe.Plant, data: Any) -> dict[str, np.ndarray]:
+    """Loop of (66)-(69) at the print, and E, F of the sixteen half units."""
+    centre, half = printed_reduced(lambda name: data[name]), printed_reduced(data.half)
+    shifted = {name: centre[name] + half[name] for name in centre}
+    M, moved = (reduced_loop(plant, first_state(plant.n), **found) for found in (centre, shifted))
+    E, F = loops.entry_box(moved - M)
+    return {"M": M, "E": E, "F": F}
