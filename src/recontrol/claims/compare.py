@@ -103,7 +103,7 @@ def _numeric(claim: Claim, how: str, value: Any, printed: Printed) -> Outcome:
             ]
         ),
         units_in_last_place=max(entry.units_in_last_place for entry in entries),
-        digits=min(entry.digits for entry in entries),
+        digits=min((entry.digits for entry in entries if entry.digits_printed), default=None),
         entries=entries,
     )
 
@@ -121,8 +121,8 @@ def _entry(claim: Claim, how: str, cell: Cell, found: Any, place: str, exact: bo
         agrees=agrees,
         difference=float(max(distances)),
         units_in_last_place=max(units),
-        digits=min(_digits(number, d) for d, (number, _) in zip(distances, parts, strict=True)),
-        digits_printed=min(number.digits for number, _ in parts),
+        digits=min((_digits(n, d) for d, (n, _) in zip(distances, parts, strict=True) if n.digits), default=0),
+        digits_printed=min((number.digits for number, _ in parts if number.digits), default=0),
         enclosure=[(_decimal(low, down=True), _decimal(high, down=False)) for low, high in ends],
     )
 
