@@ -87,10 +87,16 @@ def is_finite(A: Any) -> bool:
 
 
 def midpoint(A: Any) -> Any:
-    """Float midpoint of a ball, or float64 array of the midpoints."""
+    """Float midpoint of a ball (nearest double of a rational), or float64 array of the midpoints."""
     if isinstance(A, np.ndarray):
-        return np.array([midpoint(x) for x in A.flat], dtype=float).reshape(A.shape)
-    return float(to_ball(A).mid())
+        return np.array([_float(x) for x in A.flat], dtype=float).reshape(A.shape)
+    return _float(A)
+
+
+def _float(x: Any) -> float:
+    if type(x) is fmpq:
+        return int(x.p) / int(x.q) if x != 0 else 0.0
+    return float(x.mid()) if isinstance(x, arb) else int(x)
 
 
 def radius(A: Any) -> Any:

@@ -10,7 +10,7 @@ from __future__ import annotations
 import re
 from collections.abc import Iterable, Sequence
 from fractions import Fraction
-from typing import Any
+from typing import Any, TypeAlias
 
 import numpy as np
 from flint import fmpq, fmpq_mat, fmpz
@@ -18,7 +18,7 @@ from flint import fmpq, fmpq_mat, fmpz
 _DECIMAL = re.compile(r"([+-]?)(\d*)(?:\.(\d*))?(?:[eE]([+-]?\d+))?")
 _FRACTION = re.compile(r"([+-]?\d+)/(\d+)")
 
-ExactLike = fmpq | fmpz | int | str | Fraction
+ExactLike: TypeAlias = fmpq | fmpz | int | str | Fraction
 
 
 class NotExactError(TypeError):

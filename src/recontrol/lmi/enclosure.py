@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import Any
 
 import numpy as np
@@ -11,9 +11,11 @@ from flint import fmpq
 
 from recontrol.exact import ball, rational
 from recontrol.lmi import duality, proof
-from recontrol.lmi.duality import Multipliers, NotProvenError
+from recontrol.lmi.duality import NotProvenError
+from recontrol.lmi.faces import Faced, given_faces
 from recontrol.lmi.problem import Problem
 from recontrol.lmi.proof import PRECISION
+from recontrol.lmi.repair import Multipliers, rationalise
 from recontrol.lmi.solvers import DEFAULT_TIME_LIMIT
 
 __all__ = ["Enclosure", "NotProvenError", "bound_by_multipliers", "bound_by_point", "enclose"]
@@ -90,6 +92,7 @@ def enclose(
     problem: Problem,
     *,
     margin: str | None = None,
+    faces: Mapping[str, Any] | None = None,
     decimals: int = 14,
     dual_decimals: int = 14,
     digits: int = 9,
@@ -103,42 +106,78 @@ def enclose(
     One solve of a perturbed problem gives a point that holds every condition by ``margin`` and multipliers held
     off zero by as much, both in scaled units; they are rounded, repaired exactly and proven. Without ``margin`` the
     back-off grows tenfold from 1e-9 to 1e-5 until both sides are proven. The stated bounds are rounded outwards to
-    ``digits`` significant digits. Raises NotProvenError with what failed at the last back-off.
+    ``digits`` significant digits. ``faces`` as in `proof.prove_infeasible`. Raises NotProvenError.
     """
     if problem.objective is None:
         raise NotProvenError(f"{problem.name}: an enclosure needs an objective")
-    by_point: tuple[fmpq, dict[str, Any]] | None = None
-    by_multipliers: tuple[fmpq, dict[str, Any]] | None = None
-    point: dict[str, Any] = {}
-    failures: list[str] = []
+    search = _Search(
+        problem, Faced(problem, given_faces(problem, faces)), solver, time_limit, (decimals, dual_decimals)
+    )
     for back_off in BACK_OFFS if margin is None else (margin,):
         notes = {"solver": solver, "back_off": back_off}
-        common: dict[str, Any] = {"digits": digits, "precision": precision, "says": says, "notes": notes}
-        failures = []
-        try:
-            x, floats = duality.held_off_bound(problem, float(back_off), float(back_off), solver, time_limit)
-        except NotProvenError as error:
-            failures.append(str(error))
-            continue
-        if by_point is None:
-            try:
-                point = proof.rounded_point(problem, _point_of(problem, x), decimals)
-                by_point = bound_by_point(problem, point, **common)
-            except NotProvenError as error:
-                failures.append(str(error))
-        if by_multipliers is None:
-            try:
-                by_multipliers = bound_by_multipliers(
-                    problem, duality.rationalise(problem, floats, dual_decimals), **common
-                )
-            except NotProvenError as error:
-                failures.append(str(error))
-        if by_point and by_multipliers:
-            first, second = by_multipliers, by_point
+        search.step(back_off, {"digits": digits, "precision": precision, "says": says, "notes": notes})
+        if search.by_point and search.by_multipliers:
+            ends = [search.by_multipliers, search.by_point]
             if proof.objective_sense(problem) == "max":
-                first, second = second, first
-            return Enclosure(first[0], second[0], first[1], second[1], point)
-    raise NotProvenError(f"{problem.name}: no enclosure: {'; '.join(failures)}")
+                ends.reverse()
+            return Enclosure(ends[0][0], ends[1][0], ends[0][1], ends[1][1], search.point)
+    raise NotProvenError(f"{problem.name}: no enclosure: {'; '.join(search.failures)}")
+
+
+@dataclass
+class _Search:
+    """Both sides of an enclosure while the back-off grows; a side that is proven is kept."""
+
+    problem: Problem
+    faced: Faced
+    solver: str
+    time_limit: float
+    decimals: tuple[int, int]
+    by_point: tuple[fmpq, dict[str, Any]] | None = None
+    by_multipliers: tuple[fmpq, dict[str, Any]] | None = None
+    point: dict[str, Any] = field(default_factory=dict)
+    failures: list[str] = field(default_factory=list)
+
+    def step(self, back_off: str, common: dict[str, Any]) -> None:
+        """Try the sides that are still open at this back-off."""
+        self.failures = []
+        x, floats = self._floats(float(back_off))
+        if self.by_point is None and x is not None:
+            try:
+                point = proof.rounded_point(self.problem, _point_of(self.problem, x), self.decimals[0])
+                self.by_point, self.point = bound_by_point(self.problem, point, **common), point
+            except NotProvenError as error:
+                self.failures.append(str(error))
+        if self.by_multipliers is None and floats is not None:
+            try:
+                exact = rationalise(self.faced, floats, self.decimals[1])
+                self.by_multipliers = bound_by_multipliers(self.problem, exact, **common)
+            except NotProvenError as error:
+                self.failures.append(str(error))
+
+    def _floats(self, off: float) -> tuple[np.ndarray | None, dict[str, np.ndarray] | None]:
+        """Point and multipliers from one solve, or from two where the multipliers live on faces."""
+        run = (self.solver, self.time_limit)
+        if not self.faced.faces:
+            try:
+                return duality.held_off_bound(self.faced, off, off, *run)
+            except NotProvenError as error:
+                self.failures.append(str(error))
+            # Multipliers without interior make the perturbed problem unbounded.
+            self.faced = self._faces()
+        x = floats = None
+        try:
+            x = duality.held_off_bound(Faced(self.problem, {}), off, 0.0, *run)[0]
+            floats = duality.held_off_bound(self.faced, 0.0, off, *run)[1] if self.faced.faces else None
+        except NotProvenError as error:
+            self.failures.append(str(error))
+        return x, floats
+
+    def _faces(self) -> Faced:
+        try:
+            return duality.on_faces(self.faced, None, self.solver, self.time_limit)[0]
+        except NotProvenError:
+            return self.faced
 
 
 def _dual_value(problem: Problem, exact: Multipliers) -> Any:
@@ -150,7 +189,7 @@ def _dual_value(problem: Problem, exact: Multipliers) -> Any:
         value = value - rational.trace_product(form.constant(), Z)
         for i, M in form.coefficients().items():
             residual[i] = residual.get(i, fmpq(0)) - rational.trace_product(M, Z)
-    for i, (low, high) in duality.unknown_boxes(problem).items():
+    for i, (low, high) in problem.unknown_boxes.items():
         r = residual.get(i, fmpq(0))
         value = value + (min(r * low, r * high) if ball.has_balls(r) is False else ball.to_ball(r * low).min(r * high))
     return value

@@ -174,6 +174,16 @@ class Problem:
         return [u if u is not None else fmpq(1) for u in out]
 
     @cached_property
+    def unknown_boxes(self) -> dict[int, tuple[fmpq, fmpq]]:
+        """Box of every scalar unknown whose variable has one, in original units."""
+        out: dict[int, tuple[fmpq, fmpq]] = {}
+        for name, (low, high) in self.boxes.items():
+            v, first = self.variables[name], self.offsets[name]
+            for k, ends in enumerate(zip(v.exact_vector(low), v.exact_vector(high), strict=True)):
+                out[first + k] = ends
+        return out
+
+    @cached_property
     def row_units(self) -> dict[str, list[fmpq]]:
         """Exact congruence of each condition: M_s = diag(s) M diag(s)."""
         out = {}

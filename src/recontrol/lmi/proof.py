@@ -15,8 +15,10 @@ import numpy as np
 from recontrol.exact import ball, rational
 from recontrol.lmi import certificate as write
 from recontrol.lmi import duality, verify
-from recontrol.lmi.duality import Multipliers, NotProvenError
+from recontrol.lmi.duality import NotProvenError
+from recontrol.lmi.faces import Faced, given_faces
 from recontrol.lmi.problem import Problem, Solution
+from recontrol.lmi.repair import Multipliers, rationalise, slack_conditions
 from recontrol.lmi.solvers import DEFAULT_TIME_LIMIT
 
 __all__ = ["NotProvenError", "prove_feasible", "prove_infeasible", "prove_member", "rounded_point"]
@@ -104,7 +106,7 @@ def prove_infeasible(
     problem: Problem,
     *,
     multipliers: Mapping[str, Any] | None = None,
-    support: Mapping[str, list[int]] | None = None,
+    faces: Mapping[str, Any] | None = None,
     decimals: int = 12,
     says: str = "",
     precision: int = PRECISION,
@@ -115,16 +117,15 @@ def prove_infeasible(
     """Certificate that no value of the variables (inside their boxes) satisfies the conditions together.
 
     ``multipliers`` gives exact Z_c >= 0 by condition (left out: zero; slack conditions need none); else they are
-    found, rounded to ``decimals`` decimals in scaled units and repaired exactly. ``support`` restricts the search to a
-    principal block (0-based rows) of a condition: a block of a feasible point is feasible. The statement is
+    found, rounded to ``decimals`` decimals in scaled units and repaired exactly. ``faces`` restricts a multiplier to
+    W Y W' for an exact W (n, r), or to a principal block (list of 0-based rows); without it faces are looked for where
+    the multipliers turn out singular. The statement is
     "exclusion" for a problem with boxes, else "infeasible". Raises NotProvenError.
     """
     notes = dict(notes or {})
     if multipliers is None:
-        bare = _without_objective(problem)
-        floats, least, rows = duality.farkas_floats(bare, solver, time_limit, support)
-        exact = duality.rationalise(bare, floats, decimals, rows)
-        notes = {"solver": solver, "least_eigenvalue": f"{least:.3e}", **notes}
+        exact, found = find_multipliers(problem, decimals, solver, time_limit, faces)
+        notes = {"solver": solver, **found, **notes}
     else:
         exact = given_multipliers(problem, multipliers)
     says = says or f"{problem.name}: the conditions contradict each other"
@@ -133,8 +134,24 @@ def prove_infeasible(
     )
 
 
+def find_multipliers(
+    problem: Problem, decimals: int, solver: str, time_limit: float, faces: Mapping[str, Any] | None = None
+) -> tuple[Multipliers, dict[str, str]]:
+    """Exact multipliers that contradict the conditions, and notes on how they were found. Raises NotProvenError."""
+    bare = problem if problem.objective is None else replace(problem, objective=None)
+    violation = duality.least_violation(bare, solver, time_limit)
+    if violation < -duality.FEASIBLE_BY:
+        raise NotProvenError(f"{problem.name}: {solver} finds a point with common margin {-violation:.3g}")
+    needed = max(violation, 0.0) / 2
+    start = Faced(bare, given_faces(bare, faces))
+    faced, found = duality.on_faces(start, needed, solver, time_limit)
+    notes = {"violation": f"{violation:.3e}", "least_eigenvalue": f"{found.least:.3e}"}
+    notes |= {"faces": ", ".join(f"{n}: {W.shape[1]} of {W.shape[0]}" for n, W in faced.faces.items())}
+    return rationalise(faced, found.multipliers, decimals), {key: value for key, value in notes.items() if value}
+
+
 def given_multipliers(problem: Problem, multipliers: Mapping[str, Any]) -> Multipliers:
-    slack = [name for name in duality.slack_conditions(problem) if name not in multipliers]
+    slack = [name for name in slack_conditions(problem) if name not in multipliers]
     unknown = set(multipliers) - {c.name for c in problem.named}
     if unknown:
         raise NotProvenError(f"{problem.name}: multipliers for {', '.join(sorted(unknown))}, which are no conditions")
@@ -157,7 +174,7 @@ def multiplier_certificate(
         "unknowns": problem.unknowns,
         "forms": [write.encode_form(c, problem.forms[c.name]) for c in problem.named],
         "unknown_boxes": {
-            str(i): [rational.text(lo), rational.text(hi)] for i, (lo, hi) in duality.unknown_boxes(problem).items()
+            str(i): [rational.text(lo), rational.text(hi)] for i, (lo, hi) in problem.unknown_boxes.items()
         },
         "witness": {
             "multipliers": {name: write.encode(Z) for name, Z in exact.matrices.items()},
@@ -193,10 +210,6 @@ def _accepted(problem: Problem, found: dict[str, Any]) -> dict[str, Any]:
     if not checked.holds:
         raise NotProvenError(f"{problem.name}: {checked.why}")
     return found
-
-
-def _without_objective(problem: Problem) -> Problem:
-    return problem if problem.objective is None else replace(problem, objective=None)
 
 
 def objective_sense(problem: Problem) -> str:

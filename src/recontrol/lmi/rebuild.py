@@ -162,9 +162,7 @@ def _compare_forms(stored: Mapping[str, Any], problem: Problem) -> str:
 
 
 def _boxes(problem: Problem) -> dict[str, list[Any]]:
-    from recontrol.lmi.duality import unknown_boxes
-
-    return {str(i): [write.entry(lo), write.entry(hi)] for i, (lo, hi) in unknown_boxes(problem).items()}
+    return {str(i): [write.entry(lo), write.entry(hi)] for i, (lo, hi) in problem.unknown_boxes.items()}
 
 
 def _compare_objective(stored: Mapping[str, Any], problem: Problem) -> str:

@@ -114,6 +114,8 @@ def balance(magnitudes: np.ndarray, sweeps: int = 20) -> list[fmpq]:
     """
     n = magnitudes.shape[0]
     s = np.ones(n)
+    if n == 0:
+        return []
     for _ in range(sweeps):
         largest = (s[:, None] * magnitudes * s[None, :]).max(axis=1)
         s /= np.sqrt(np.where(largest > 0, largest, 1.0))

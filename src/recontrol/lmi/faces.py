@@ -1,0 +1,131 @@
+"""Faces: subspaces on which multipliers can live, found from the conditions themselves.
+
+If some combination N_c = s M_c0 + sum_i x_i M_ci, s >= 0, is positive semidefinite for every condition, then the
+multipliers with sum_c <Z_c, M_ci> = 0 and sum_c <Z_c, M_c0> <= 0 satisfy <Z_c, N_c> = 0: they vanish on the range of
+N_c and have no interior. Written Z = W Y W' with W a basis of the complement they can have one, and only then survive
+rounding. Any W is sound; a wrong one proves nothing.
+Source: facial reduction, Borwein and Wolkowicz, J. Austral. Math. Soc. (Series A) 30 (1981) 369-380.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from fractions import Fraction
+from functools import cached_property
+from typing import Any
+
+import numpy as np
+from flint import fmpq
+
+from recontrol.exact import ball, linalg, rational
+from recontrol.lmi import scaling
+from recontrol.lmi.affine import CONSTANT, AffineMatrix
+from recontrol.lmi.problem import Problem
+
+Faces = Mapping[str, np.ndarray]
+
+# Eigenvalues of the N_c that count as nonzero, relative to the largest entry; a solver leaves noise near 1e-9.
+WIDE = 1e-5
+
+
+@dataclass(frozen=True)
+class Faced:
+    """The conditions of a problem restricted to faces: forms W' M W, their row units, and the way back Z = W Y W'."""
+
+    problem: Problem
+    faces: Faces
+
+    @cached_property
+    def forms(self) -> dict[str, AffineMatrix]:
+        """Exact restricted forms by condition."""
+        out = {}
+        for name, form in self.problem.forms.items():
+            if name in self.faces:
+                W = self.faces[name]
+                r = W.shape[1]
+                out[name] = AffineMatrix((r, r), {i: W.T @ M @ W for i, M in form.terms.items()})
+            else:
+                out[name] = form
+        return out
+
+    @cached_property
+    def row_units(self) -> dict[str, list[fmpq]]:
+        """Exact row units: the problem's, or balanced anew on a face."""
+        out = dict(self.problem.row_units)
+        for name in self.faces:
+            out[name] = scaling.balance(magnitudes(self.forms[name], self.problem.unknown_units))
+        return out
+
+    def lifted(self, name: str, Y: np.ndarray) -> np.ndarray:
+        """Multiplier of the whole condition, W Y W'."""
+        return self.faces[name] @ Y @ self.faces[name].T if name in self.faces else Y
+
+
+def magnitudes(form: AffineMatrix, units: list[fmpq]) -> np.ndarray:
+    """Largest modulus of each entry over constant and scaled coefficients."""
+    total = np.zeros(form.shape)
+    for i, M in form.terms.items():
+        unit = 1.0 if i == CONSTANT else float(rational.to_float(units[i]))
+        total = np.maximum(total, np.abs(ball.midpoint(M)) * unit)
+    return total
+
+
+def given_faces(problem: Problem, given: Mapping[str, Any] | None) -> dict[str, np.ndarray]:
+    """Faces from exact matrices W (n, r), or from lists of 0-based rows (a principal block)."""
+    out = {}
+    for name, W in (given or {}).items():
+        n = problem.forms[name].shape[0]
+        out[name] = W if isinstance(W, np.ndarray) else rational.identity(n)[:, list(W)]
+        if out[name].shape[0] != n:
+            raise ValueError(f"face of {name}: expected {n} rows, found {out[name].shape[0]}")
+    return out
+
+
+def complement(V: np.ndarray) -> np.ndarray:
+    """Face (n, n - k) of the multipliers that vanish on the exact independent columns of V (n, k)."""
+    return linalg.nullspace(V.T)
+
+
+def exposed_faces(faced: Faced, exposing: Mapping[str, np.ndarray], tolerance: float) -> dict[str, np.ndarray]:
+    """Smaller faces from scaled N_c >= 0 that all multipliers are orthogonal to; empty if none is left out.
+
+    Each basis is read off the range of N_c as rationals, the simplest within ``tolerance``.
+    """
+    found, largest = {}, max((float(np.abs(N).max(initial=0.0)) for N in exposing.values()), default=0.0)
+    for name, N in exposing.items():
+        W = _complement(N / max(largest, 1e-300), faced.row_units[name], tolerance)
+        if W is not None:
+            found[name] = faced.faces[name] @ W if name in faced.faces else W
+    return {**faced.faces, **found} if found else {}
+
+
+def _complement(N: np.ndarray, row_units: list[fmpq], tolerance: float) -> np.ndarray | None:
+    """Rational basis (n, r) of the orthogonal complement of the range of S^-1 N S^-1; None if the range is zero.
+
+    N has entries up to one.
+
+    The range is brought to reduced echelon form, whose entries are recognised as fractions.
+    """
+    import scipy.linalg
+
+    values, vectors = np.linalg.eigh((N + N.T) / 2)
+    wide = vectors[:, values > WIDE]
+    if not wide.shape[1]:
+        return None
+    s = rational.to_float(np.array(row_units, dtype=object))
+    basis = (wide / s[:, None]).T
+    k = basis.shape[0]
+    _, _, order = scipy.linalg.qr(basis, pivoting=True)
+    echelon = np.linalg.solve(basis[:, order[:k]], basis)
+    exact = np.array([[_recognised(x, tolerance) for x in row] for row in echelon], dtype=object)
+    return complement(exact.T)
+
+
+def _recognised(x: float, tolerance: float) -> fmpq:
+    """A fraction of small denominator within ``tolerance`` of ``x``, relative to max(1, abs x)."""
+    for bound in (1, 10, 100, 1000, 10_000, 100_000, 1_000_000):
+        guess = Fraction(x).limit_denominator(bound)
+        if abs(float(guess) - x) <= tolerance * max(1.0, abs(x)):
+            return fmpq(guess.numerator, guess.denominator)
+    return rational.rounded(x, 9)

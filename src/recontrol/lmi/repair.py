@@ -1,0 +1,149 @@
+"""From float multipliers to exact ones: rounding, and restoring the equations that make every unknown drop out."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+import numpy as np
+from flint import arb, fmpq
+
+from recontrol.exact import linalg, rational
+from recontrol.lmi.affine import CONSTANT
+from recontrol.lmi.duality import NotProvenError
+from recontrol.lmi.faces import Faced
+from recontrol.lmi.problem import Problem
+
+
+@dataclass(frozen=True)
+class Multipliers:
+    """Exact multipliers by condition, and the names of slack conditions whose multiplier follows from the others."""
+
+    matrices: dict[str, np.ndarray]
+    slack: tuple[str, ...]
+
+
+def slack_conditions(problem: Problem) -> dict[str, set[int]]:
+    """Conditions that say just "V > 0" for a symmetric variable (or scalar) V: their names and V's unknowns.
+
+    Only the first such condition of a variable counts; unknowns with a box are left to the box.
+    """
+    out: dict[str, set[int]] = {}
+    taken = set(problem.unknown_boxes)
+    for c in problem.named:
+        form = problem.forms[c.name]
+        coefficients = form.coefficients()
+        if c.is_equality or CONSTANT in form.terms or not coefficients or taken & set(coefficients):
+            continue
+        places: set[tuple[int, int]] = set()
+        if all(_is_unit(M, places) for M in coefficients.values()):
+            out[c.name] = set(coefficients)
+            taken |= set(coefficients)
+    return out
+
+
+def _is_unit(M: np.ndarray, places: set[tuple[int, int]]) -> bool:
+    found = {(i, j) for (i, j), x in np.ndenumerate(M) if i <= j and not (type(x) is fmpq and x == 0)}
+    if len(found) != 1 or found & places or any(isinstance(x, arb) for x in M.flat):
+        return False
+    places |= found
+    return M[next(iter(found))] == 1
+
+
+def rationalise(faced: Faced, scaled: Mapping[str, np.ndarray], decimals: int) -> Multipliers:
+    """Scaled float multipliers as exact ones in original units that satisfy sum <Z_c, M_ci> = c_i exactly.
+
+    Rounded to ``decimals`` decimals in scaled units; then as many entries as there are equations are solved for in
+    rationals, chosen by a pivoted QR among the large ones. Slack conditions are left out: they absorb their variable.
+    Raises NotProvenError if the equations cannot be met (balls among their coefficients, dependent equations).
+    """
+    problem = faced.problem
+    slack = {name: unknowns for name, unknowns in slack_conditions(problem).items() if name not in faced.faces}
+    exact: dict[str, np.ndarray] = {}
+    for c in problem.named:
+        if c.name in slack:
+            continue
+        size = faced.forms[c.name].shape
+        rounded = rational.rounded(scaled[c.name], decimals) if min(size) else rational.zeros(*size)
+        exact[c.name] = rounded if c.is_equality else _unscaled(rounded, faced.row_units[c.name])
+    absorbed = set(problem.unknown_boxes).union(*slack.values()) if slack else set(problem.unknown_boxes)
+    equations = [i for i in range(problem.size) if i not in absorbed]
+    if equations:
+        _repair(faced, exact, equations)
+    return Multipliers({name: faced.lifted(name, Y) for name, Y in exact.items()}, tuple(slack))
+
+
+def _unscaled(Z: np.ndarray, row_units: list[fmpq]) -> np.ndarray:
+    s = rational.diagonal(row_units)
+    return s @ rational.symmetric_part(Z) @ s
+
+
+def _repair(faced: Faced, Z: dict[str, np.ndarray], equations: list[int]) -> None:
+    """Change entries of the Z in place so that the equations hold exactly."""
+    problem = faced.problem
+    places, weights = _places(problem, Z)
+    A = _equations(faced, places, equations)
+    z = np.array([[Z[name][i, j]] for name, i, j in places], dtype=object)
+    costs = problem.costs[1]
+    right = np.array([[costs.get(i, fmpq(0))] for i in equations], dtype=object) - A @ z
+    rows, columns = _solvable(problem, A, weights, right)
+    step = linalg.solve(A[np.ix_(rows, columns)], right[rows])
+    for column, change in zip(columns, step[:, 0], strict=True):
+        name, i, j = places[column]
+        Z[name][i, j] += change
+        if i != j and not _is_equality(problem, name):
+            Z[name][j, i] += change
+
+
+def _places(problem: Problem, Z: Mapping[str, np.ndarray]) -> tuple[list[tuple[str, int, int]], np.ndarray]:
+    """Entries that may be changed, and how much they may: the geometric mean of the diagonal."""
+    places, weights = [], []
+    for name, M in Z.items():
+        equality = _is_equality(problem, name)
+        for i, j in np.ndindex(M.shape):
+            size = 1.0 if equality else float(rational.to_float(abs(M[i, i] * M[j, j]))) ** 0.5
+            if equality or (i <= j and size > 0):
+                places.append((name, i, j))
+                weights.append(size)
+    return places, np.array(weights)
+
+
+def _equations(faced: Faced, places: list[tuple[str, int, int]], equations: list[int]) -> np.ndarray:
+    """Exact matrix (equations, places) of sum_c <Z_c, M_ci> in the entries that may be changed."""
+    A = rational.zeros(len(equations), len(places))
+    row_of = {i: r for r, i in enumerate(equations)}
+    for column, (name, i, j) in enumerate(places):
+        count = 1 if i == j or _is_equality(faced.problem, name) else 2
+        for k, M in faced.forms[name].terms.items():
+            if k not in row_of or (type(M[i, j]) is fmpq and M[i, j] == 0):
+                continue
+            if isinstance(M[i, j], arb):
+                unknown = faced.problem.unknowns[k]
+                raise NotProvenError(f"{faced.problem.name}: {unknown} has balls in {name}: give it a box or a slack")
+            A[row_of[k], column] = M[i, j] * count
+    return A
+
+
+def _solvable(problem: Problem, A: np.ndarray, weights: np.ndarray, right: np.ndarray) -> tuple[list[int], list[int]]:
+    """Independent rows and as many columns, chosen by a pivoted QR of the weighted matrix."""
+    import scipy.linalg
+
+    floats = rational.to_float(A) * weights[None, :]
+    norms = np.linalg.norm(floats, axis=1)
+    rows = [int(r) for r in np.flatnonzero(norms)]
+    if any(right[r, 0] != 0 for r in np.flatnonzero(norms == 0)):
+        raise NotProvenError(f"{problem.name}: an unknown of the objective is in no condition")
+    if not rows:
+        return [], []
+    _, triangle, pivots = scipy.linalg.qr(floats[rows] / norms[rows, None], mode="economic", pivoting=True)
+    diagonal = np.abs(np.diag(triangle))
+    count = int((diagonal > 1e-10 * diagonal[0]).sum())
+    if count < len(rows):
+        rows = [rows[r] for r in linalg.independent_rows(A[rows])]
+    if len(rows) != count:
+        raise NotProvenError(f"{problem.name}: the equations of the multipliers are too close to dependent")
+    return rows, [int(p) for p in pivots[:count]]
+
+
+def _is_equality(problem: Problem, name: str) -> bool:
+    return next(c for c in problem.named if c.name == name).is_equality
