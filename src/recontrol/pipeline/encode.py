@@ -152,14 +152,15 @@ def _decode_exact(tree: Any) -> Any:
 
 def _decode_ball(tree: dict[str, Any]) -> Any:
     import numpy as np
-    from flint import arb
+
+    from recontrol.exact.ball import from_mid_rad
 
     mid, rad = _decode_exact(tree["mid"]), _decode_exact(tree["rad"])
     if isinstance(mid, np.ndarray):
         balls = np.empty(mid.size, dtype=object)
-        balls[:] = [arb(m) + arb(0, arb(r).upper()) for m, r in zip(mid.ravel(), rad.ravel(), strict=True)]
+        balls[:] = [from_mid_rad(m, r) for m, r in zip(mid.ravel(), rad.ravel(), strict=True)]
         return balls.reshape(mid.shape)
-    return arb(mid) + arb(0, arb(rad).upper())
+    return from_mid_rad(mid, rad)
 
 
 def sha256(content: bytes) -> str:
