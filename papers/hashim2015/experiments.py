@@ -118,10 +118,11 @@ def robustness(values: Any) -> Table:
     """Margins at the plant input."""
     keys = (
         "gain_lower", "gain_upper", "gain_lower_frequency", "gain_upper_frequency", "gain_argument", "phase_margin",
-        "peak_sensitivity", "peak_frequency", "peak_confirmed", "coprime_radius", "coprime_frequency", "coprime_best",
+        "peak_frequency", "peak_hamiltonian_difference", "coprime_radius", "coprime_frequency", "coprime_best",
         "compensator_abscissa",
     )  # fmt: skip
-    return {key: column(by_axis(values["axes"]), key) for key in keys}
+    found = {key: column(by_axis(values["axes"]), key) for key in keys}
+    return found | {"peak_sensitivity": column(by_axis(values["axes"]), "peak_enclosure")}
 
 
 def recovery(values: Any) -> Table:
