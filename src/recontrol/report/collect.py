@@ -169,10 +169,12 @@ class Claim:
 
     @cached_property
     def decisive(self) -> Finding | None:
-        """The finding that carries the verdict: the named reading, else the first definition, else the first."""
+        """The finding to show first: what contradicts an erratum, else the reading that carries the verdict."""
         named = [finding for finding in self.findings if finding.name == self.reading]
         definitions = [finding for finding in self.findings if finding.kind == "definition"]
-        return next(iter(named + definitions + self.findings), None)
+        against = [finding for finding in self.findings if finding.kind != "explanation" and finding.agrees == "no"]
+        against.sort(key=lambda finding: finding.kind != "definition")
+        return next(iter((against if self.verdict == "erratum" else []) + named + definitions + self.findings), None)
 
     @cached_property
     def explanations(self) -> list[Finding]:
@@ -279,7 +281,8 @@ class Paper:
         rows = []
         for name, entry in (self.about.get("figures") or {}).items():
             files = [suffix for suffix in ("svg", "pdf", "png", "csv") if (folder / f"{name}.{suffix}").is_file()]
-            rows.append({"name": name, "files": files, **(entry if isinstance(entry, dict) else {"title": str(entry)})})
+            words_of = entry if isinstance(entry, dict) else {}
+            rows.append({"name": name, "title": name, "caption": "", "of": "finding", "files": files, **words_of})
         return rows
 
     @cached_property

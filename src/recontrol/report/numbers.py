@@ -173,6 +173,12 @@ def fixed(value: Fraction, decimals: int) -> str:
     return f"{sign}{digits[:-decimals]}.{digits[-decimals:]}" if decimals else sign + digits
 
 
+def rounded_text(text: str, digits: int = 6) -> str:
+    """Return a text with every decimal number rounded to that many significant digits; integers stay."""
+    decimal = re.compile(r"[+-]?\d+(?:\.\d+(?:[eE][+-]?\d+)?|[eE][+-]?\d+)")
+    return decimal.sub(lambda match: significant(Fraction(match[0]), digits), text)
+
+
 def magnitude(value: Fraction) -> int:
     """Return e with 10^e <= abs(value) < 10^(e+1); 0 for zero."""
     if value == 0:

@@ -30,6 +30,7 @@ class Panel:
     label: str
     finding: Finding | None
     rows: list[list[CellView]]
+    rows_of: str = ""
     agreeing: int = 0
     counted: int = 0
 
@@ -113,7 +114,23 @@ def _found_panel(claim: Claim, finding: Finding) -> Panel:
             differs = counted and _differs(finding, i, j)
             agreeing, total = agreeing + (counted and not differs), total + counted
             rows[-1].append(_cell_view(cell, text, counted, finding.entries.get((i + 1, j + 1)) if differs else None))
-    return Panel(finding.name, finding, rows, agreeing, total)
+    rows, place = _cropped(rows)
+    return Panel(finding.name, finding, rows, place, agreeing, total)
+
+
+def _cropped(rows: list[list[CellView]]) -> tuple[list[list[CellView]], str]:
+    """Return the smallest block that holds all counted cells, and where it stands (empty for the whole)."""
+    kept_rows = [i for i, row in enumerate(rows) if any(cell.counted for cell in row)]
+    kept_columns = [j for j in range(max(map(len, rows))) if any(j < len(row) and row[j].counted for row in rows)]
+    if not kept_rows or (len(kept_rows) == len(rows) and len(kept_columns) == max(map(len, rows))):
+        return rows, ""
+    (top, bottom), (left, right) = (kept_rows[0], kept_rows[-1]), (kept_columns[0], kept_columns[-1])
+    block = [row[left : right + 1] for row in rows[top : bottom + 1]]
+    return block, f"{_span('row', top, bottom)}, {_span('column', left, right)}"
+
+
+def _span(name: str, first: int, last: int) -> str:
+    return f"{name} {first + 1}" if first == last else f"{name}s {first + 1}-{last + 1}"
 
 
 def is_counted(claim: Claim, i: int, j: int) -> bool:
@@ -178,7 +195,7 @@ def one_line(value: Any) -> str:
         return "true" if value else "false"
     if isinstance(value, str) and numbers.to_fraction(value) is None:
         lines = value.strip().splitlines()
-        return value if len(lines) <= 1 else f"{len(lines)} rows"
+        return numbers.rounded_text(value) if len(lines) <= 1 else f"{len(lines)} rows"
     cells = numbers.decode(value)
     if cells is not None:
         if sum(map(len, cells)) == 1:
@@ -202,12 +219,11 @@ def distance_text(claim: Claim, finding: Finding) -> str:
 
 def digits_text(claim: Claim, finding: Finding) -> str:
     """Return how many leading digits agree, of how many printed; for the compared cell with the fewest."""
+    compared = [(e["digits"], e["digits_printed"]) for e in finding.entries.values() if e.get("digits_printed")]
+    if compared:
+        return "{} of {}".format(*min(compared))
     given = finding.raw.get("digits")
-    if not isinstance(given, int):
-        return ""
-    worst = [entry for entry in finding.entries.values() if entry.get("digits") == given]
-    printed = {entry.get("digits_printed") for entry in worst}
-    return f"{given} of {printed.pop()}" if len(printed) == 1 else str(given)
+    return str(given) if isinstance(given, int) and given else ""
 
 
 def difference_text(claim: Claim, finding: Finding) -> str:
@@ -240,6 +256,14 @@ def tree(value: Any) -> tuple[str, Any]:
     return "text", one_line(value)
 
 
+def correction(claim: Claim) -> str:
+    """Return what was found in place of an erratum in one line; empty where the finding is only that it differs."""
+    finding = claim.decisive
+    if finding is None or finding.cases or claim.compare in ("identity", "membership"):
+        return ""
+    return found_text(claim, finding)
+
+
 def is_nested(value: Any) -> bool:
     """Say whether a value needs more than one line."""
     return tree(value)[0] != "text"
@@ -268,6 +292,14 @@ SOLVER_COLUMNS = {
 def solver_columns(rows: list[dict[str, Any]]) -> dict[str, str]:
     """Return the columns that some row fills."""
     return {key: name for key, name in SOLVER_COLUMNS.items() if any(solver_cell(row, key) for row in rows)}
+
+
+def quantity_groups(rows: list[dict[str, Any]]) -> list[tuple[dict[str, Any], list[dict[str, Any]]]]:
+    """Return (first row, rows) of each quantity, in the order of paper.yaml."""
+    groups: dict[str, list[dict[str, Any]]] = {}
+    for row in rows:
+        groups.setdefault(str(row.get("name")), []).append(row)
+    return [(group[0], group) for group in groups.values()]
 
 
 def solver_cell(row: dict[str, Any], key: str) -> str:
