@@ -91,6 +91,17 @@ def rational_primal(plant: recipe.Plant) -> np.ndarray:
     return P
 
 
+def lower_end(plant: recipe.Plant) -> fmpq:
+    """tr of `rational_primal`: below tr P."""
+    return sum(rational_primal(plant).diagonal().tolist(), fmpq(0))
+
+
+def upper_end(plant: recipe.Plant) -> fmpq:
+    """Cost of `rational_gain`, <Q + G'G, Z11>: above tr P."""
+    gain = rational_gain(plant)
+    return trace_product(state_weight(plant) + gain.T @ gain, moment(plant, gain))
+
+
 def routes(plant: recipe.Plant, axis: str) -> tuple[dict[str, np.ndarray], dict[str, Any]]:
     """K by the Riccati equation, a library's lqr and the semidefinite program; and the record of the solvers."""
     import control
@@ -111,17 +122,13 @@ def routes(plant: recipe.Plant, axis: str) -> tuple[dict[str, np.ndarray], dict[
 def one_axis(plant: recipe.Plant, axis: str) -> dict[str, Any]:
     """Entry of one axis."""
     found, solvers = routes(plant, axis)
-    gain, primal, Q = rational_gain(plant), rational_primal(plant), state_weight(plant)
     return {
         "K": found,
         "spread": {name: float(np.abs(K - found["spectral factor"]).max()) for name, K in found.items()},
         "P": riccati(plant),
-        "primal": primal,
-        "gain": gain,
-        "trace": {
-            "lower": sum((primal[i, i] for i in range(plant.n)), fmpq(0)),
-            "upper": trace_product(Q + gain.T @ gain, moment(plant, gain)),
-        },
+        "primal": rational_primal(plant),
+        "gain": rational_gain(plant),
+        "trace": {"lower": lower_end(plant), "upper": upper_end(plant)},
         "solvers": solvers,
     }
 

@@ -18,7 +18,7 @@ from recontrol.exact.ball import has_balls, precision, to_ball
 from recontrol.exact.linalg import inverse
 from recontrol.exact.rational import to_fmpq_mat
 
-RationalOrBall = fmpq_poly | arb_poly
+RationalOrBall = Any  # fmpq_poly or arb_poly
 PRECISION = 256
 
 
