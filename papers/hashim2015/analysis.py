@@ -10,39 +10,15 @@ from __future__ import annotations
 from typing import Any
 
 import numpy as np
-from flint import acb, arb, arb_mat, arb_poly, fmpq
+from flint import acb, fmpq
 
-from recontrol.exact.ball import has_balls, precision, to_ball
-from recontrol.exact.polynomial import PRECISION, charpoly, is_hurwitz, roots
+from recontrol.exact.ball import precision
+from recontrol.exact.polynomial import PRECISION
 
 from . import recipe
 from .readings.support import first_state, full_loop, printed_reduced, reduced_loop
 
 SIGNS = (1, -1)
-
-
-def spectrum(M: np.ndarray) -> list[acb]:
-    """Eigenvalues of a rational or ball matrix, each with an error bound, fastest first."""
-    if not has_balls(M):
-        return roots(charpoly(M))
-    with precision(PRECISION):
-        found = arb_mat(to_ball(M).tolist()).eig()
-    return sorted(found, key=lambda z: (round(float(z.real.mid()), 12), -float(z.imag.mid())))
-
-
-def abscissa(M: np.ndarray) -> arb:
-    """Largest real part of the eigenvalues."""
-    with precision(PRECISION):
-        largest = spectrum(M)[0].real
-        for z in spectrum(M)[1:]:
-            largest = largest.max(z.real)
-        return largest
-
-
-def stable(M: np.ndarray) -> bool | None:
-    """Whether every matrix of ``M`` (a point or a box) is stable: Routh, exact or in balls."""
-    with precision(PRECISION):
-        return is_hurwitz(charpoly(M))
 
 
 def word(answer: bool | None) -> str:
@@ -163,17 +139,6 @@ def deciding_members(model: Any, data: Any) -> dict[str, np.ndarray]:
         )
         members[name] = full_loop(plant, K, L, block + step * half)
     return members
-
-
-def ball_roots(p: arb_poly) -> list[acb]:
-    """Roots of a real ball polynomial, from its companion matrix."""
-    coefficients = p.coeffs()[:-1]
-    n = len(coefficients)
-    companion = np.full((n, n), fmpq(0), dtype=object)
-    companion[0, :] = [-c for c in reversed(coefficients)]
-    for i in range(1, n):
-        companion[i, i - 1] = fmpq(1)
-    return spectrum(companion)
 
 
 def nearest_match(first: np.ndarray, second: np.ndarray) -> float:

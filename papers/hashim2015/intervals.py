@@ -1,29 +1,17 @@
-"""Characteristic coefficients over a rounding box, and Kharitonov's test of a coefficient box."""
+"""Characteristic coefficients over a rounding box, and the part of it that Kharitonov's test certifies."""
 
 from __future__ import annotations
 
 from typing import Any
 
 import numpy as np
-from flint import Ordering, fmpq, fmpq_mpoly, fmpq_mpoly_ctx, fmpq_poly
+from flint import Ordering, fmpq, fmpq_mpoly, fmpq_mpoly_ctx
 
-from recontrol.exact.polynomial import is_hurwitz
+from recontrol.exact.polynomial import is_hurwitz, kharitonov_corners
 
 from . import recipe
 from .readings.support import first_state, printed_reduced, reduced_loop
 from .readings.symbols import lifted, symbolic_charpoly
-
-PATTERNS = ((0, 0, 1, 1), (1, 1, 0, 0), (0, 1, 1, 0), (1, 0, 0, 1))
-
-Ends = list[tuple[fmpq, fmpq]]
-
-
-def kharitonov_corners(ends: Ends) -> list[fmpq_poly]:
-    """The four monic polynomials that decide all monic polynomials with coefficients (ascending) between ``ends``.
-
-    Source: Kharitonov 1978; the leading coefficient is 1 throughout.
-    """
-    return [fmpq_poly([ends[k][p[k % 4]] for k in range(len(ends))] + [fmpq(1)]) for p in PATTERNS]
 
 
 def coefficient_polynomials(model: Any, data: Any) -> list[fmpq_mpoly]:

@@ -115,7 +115,7 @@ def test_coefficient_ranges_hold_the_corners():
 
 def test_kharitonov_refuses_what_one_polynomial_refutes():
     ends = [(fmpq(1), fmpq(1)), (fmpq(-1), fmpq(1))]
-    assert any(poly.is_hurwitz(corner) is not True for corner in intervals.kharitonov_corners(ends))
+    assert any(poly.is_hurwitz(corner) is not True for corner in poly.kharitonov_corners(ends))
 
 
 def test_null_vector_of_the_printed_zero_numerically():

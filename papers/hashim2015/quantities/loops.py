@@ -10,6 +10,7 @@ from flint import arb, fmpq
 from recontrol.exact.ball import precision, to_ball
 from recontrol.exact.linalg import rank
 from recontrol.exact.polynomial import PRECISION, charpoly, is_hurwitz
+from recontrol.exact.spectrum import companion, eigenvalues, is_stable, spectral_abscissa
 
 from .. import analysis, recipe
 from ..identities import ace_null_vector_holds, pitch_error_pole_is_zero
@@ -21,10 +22,29 @@ from ..readings.reduced import estimator_gain_sets, gain_box, intersect
 from ..readings.support import coefficient_margins, first_state, printed_reduced, reduced_loop
 
 
-def word_and_abscissa(loops: dict[str, np.ndarray]) -> tuple[dict[str, str], dict[str, arb]]:
+def families(data: Any, model: Any, synthesis: Any) -> dict[str, dict[str, np.ndarray]]:
+    """Loop matrices by name of quantity and case."""
+    signs = {f"{axis}, {name}": M for axis in AXES for name, M in analysis.sign_loops(model, synthesis, axis).items()}
+    full = {f"{axis}: full": analysis.axis_full_loop(model, synthesis, axis) for axis in AXES}
+    corrected = {f"{axis}: corrected": analysis.corrected_loop(model, synthesis, axis) for axis in AXES}
+    return {
+        "ace": {"ace-print": data["A_ce"], "ace-one": data["A_ce_one"]},
+        "full_loop": analysis.full_loops(model, data, synthesis),
+        "ace_member": analysis.deciding_members(model, data),
+        "printed_loop": analysis.reduced_loops(model, data),
+        "printed_sign": analysis.printed_sign_loops(model, data),
+        "x1_design_sign": signs,
+        "axis_loop": full | corrected,
+    }
+
+
+def stability(data: Any, model: Any, synthesis: Any) -> dict[str, Any]:
     """Stable or not, and spectral abscissa, of each loop."""
-    words = {name: analysis.word(analysis.stable(M)) for name, M in loops.items()}
-    return words, {name: analysis.abscissa(M) for name, M in loops.items()}
+    out: dict[str, Any] = {}
+    for name, loops in families(data, model, synthesis).items():
+        out[f"{name}_stability"] = {case: analysis.word(is_stable(M)) for case, M in loops.items()}
+        out[f"{name}_abscissa"] = {case: spectral_abscissa(M) for case, M in loops.items()}
+    return out
 
 
 def gain_intersection(model: Any, data: Any, K: np.ndarray) -> np.ndarray:
@@ -44,7 +64,7 @@ def propagate(model: Any, K: np.ndarray, L: np.ndarray) -> dict[str, Any]:
     with precision(PRECISION):
         design = recipe.reduced_matrices(plant, K, L)
         error = to_ball(plant.A[1:, 1:]) - L @ plant.A[:1, 1:]
-        return {"B_r": design.B, "D_r": design.D, "error poles": analysis.spectrum(error)}
+        return {"B_r": design.B, "D_r": design.D, "error poles": eigenvalues(error)}
 
 
 def enclosures(data: Any, model: Any, synthesis: Any) -> dict[str, Any]:
@@ -88,9 +108,9 @@ def separation_distance(model: Any, data: Any, synthesis: Any) -> dict[str, floa
         estimator = recipe.estimator_poles(plant, data["weight_high"])
         error = recipe.exact_poly(estimator[: plant.n - 1])
         with precision(PRECISION):
-            reduced = analysis.ball_roots(error)
-        full = analysis.as_row(analysis.spectrum(analysis.axis_full_loop(model, synthesis, axis)))
-        corrected = analysis.as_row(analysis.spectrum(analysis.corrected_loop(model, synthesis, axis)))
+            reduced = eigenvalues(companion(error.coeffs()[:-1]))
+        full = analysis.as_row(eigenvalues(analysis.axis_full_loop(model, synthesis, axis)))
+        corrected = analysis.as_row(eigenvalues(analysis.corrected_loop(model, synthesis, axis)))
         out[f"{axis}: full"] = analysis.nearest_match(full, analysis.as_row([*controller, *estimator]))
         out[f"{axis}: corrected"] = analysis.nearest_match(corrected, analysis.as_row([*controller, *reduced]))
     return out
@@ -105,41 +125,16 @@ def ace_rank(data: Any, case: str) -> int:
 def quantities(data: Any, model: Any, synthesis: Any) -> dict[str, Any]:
     """Names of paper.yaml, section 6."""
     plant = recipe.plant_of(model, "yaw")
-    ace = {"ace-print": data["A_ce"], "ace-one": data["A_ce_one"]}
-    ace_words, ace_abscissae = word_and_abscissa(ace)
-    full_words, full_abscissae = word_and_abscissa(analysis.full_loops(model, data, synthesis))
-    member_words, member_abscissae = word_and_abscissa(analysis.deciding_members(model, data))
-    red_words, red_abscissae = word_and_abscissa(analysis.reduced_loops(model, data))
-    wrong_words, wrong_abscissae = word_and_abscissa(analysis.printed_sign_loops(model, data))
-    signs = {f"{axis}, {name}": M for axis in AXES for name, M in analysis.sign_loops(model, synthesis, axis).items()}
-    sign_words, sign_abscissae = word_and_abscissa(signs)
-    axes = {f"{axis}: full": analysis.axis_full_loop(model, synthesis, axis) for axis in AXES} | {
-        f"{axis}: corrected": analysis.corrected_loop(model, synthesis, axis) for axis in AXES
-    }
-    axis_words, axis_abscissae = word_and_abscissa(axes)
     return {
+        **stability(data, model, synthesis),
+        **enclosures(data, model, synthesis),
         "inverse_lqr_diagonal": inverse_lqr(plant, gain_box(model, data)),
         "box_stability": box_stability(data, model),
         "estimator_controller_ratio": speed_ratios(plant, data),
-        "ace_stability": ace_words,
-        "ace_abscissa": ace_abscissae,
-        "ace_input_rank": {case: fmpq(ace_rank(data, case)) for case in ace},
-        "full_loop_stability": full_words,
-        "full_loop_abscissa": full_abscissae,
-        "ace_member_stability": member_words,
-        "ace_member_abscissa": member_abscissae,
+        "ace_input_rank": {case: fmpq(ace_rank(data, case)) for case in ("ace-print", "ace-one")},
         "ace_zero_eigenvalue": ace_null_vector_holds(plant),
-        **enclosures(data, model, synthesis),
-        "printed_loop_stability": red_words,
-        "printed_loop_abscissa": red_abscissae,
         "printed_loop_coefficient": negative_coefficient(data, model),
         "kharitonov_fraction": kharitonov_fraction(model, data),
-        "printed_sign_stability": wrong_words,
-        "printed_sign_abscissa": wrong_abscissae,
-        "x1_design_sign_stability": sign_words,
-        "x1_design_sign_abscissa": sign_abscissae,
-        "axis_loop_stability": axis_words,
-        "axis_loop_abscissa": axis_abscissae,
         "separation_distance": separation_distance(model, data, synthesis),
         "pitch_zero_error_pole": pitch_error_pole_is_zero(),
     }

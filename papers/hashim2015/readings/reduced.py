@@ -9,10 +9,10 @@ from flint import arb, fmpq
 
 from recontrol.claims.values import Result, Size, Statement
 from recontrol.exact.ball import exact_midpoint, precision, to_ball
-from recontrol.exact.polynomial import PRECISION, charpoly
+from recontrol.exact.polynomial import PRECISION, charpoly, kharitonov_corners
 from recontrol.exact.rational import rounded
 
-from ..intervals import coefficient_polynomials, coefficient_range, kharitonov_corners
+from ..intervals import coefficient_polynomials, coefficient_range
 from ..recipe import partition, plant_of, reduced_matrices
 from .support import coefficient_margins, first_state, printed_gain, printed_reduced, reduced_loop, routh_margins
 

@@ -146,6 +146,16 @@ def is_hurwitz(p: RationalOrBall) -> bool | None:
     return False if any(c < 0 for c in first) else None
 
 
+def kharitonov_corners(ends: Sequence[tuple[fmpq, fmpq]]) -> list[fmpq_poly]:
+    """The four monic polynomials that decide a box: all of its monic polynomials are Hurwitz if these are.
+
+    ``ends`` holds lower and upper end of each coefficient, ascending, without the leading 1. Source: Kharitonov 1978,
+    Differential Equations 14, 1483-1485.
+    """
+    patterns = ((0, 0, 1, 1), (1, 1, 0, 0), (0, 1, 1, 0), (1, 0, 0, 1))
+    return [fmpq_poly([ends[k][p[k % 4]] for k in range(len(ends))] + [fmpq(1)]) for p in patterns]
+
+
 def sign_changes(column: Sequence[Any]) -> int:
     """Sign changes of a Routh column with nonzero entries: the number of roots in the right half plane."""
     signs = [1 if c > 0 else -1 for c in column]
