@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import itertools
+
 import numpy as np
 import pytest
 from flint import arb, fmpq, fmpq_poly
@@ -107,3 +109,18 @@ def test_ackermann_places_the_polynomial(seed):
     assert poly.charpoly(A - B @ poly.ackermann(A, B, p)) == p
     C = random_matrix(seed + 300, 1, 4)
     assert poly.charpoly(A - poly.place_estimator(A, C, p) @ C) == p
+
+
+def test_four_polynomials_decide_all_vertices_of_a_box():
+    rng = np.random.default_rng(2)
+    outcomes = set()
+    for _ in range(60):
+        centre = np.poly(-rng.uniform(0.3, 2.0, size=2) * (1 + 1j * rng.uniform(0.5, 3.0, size=2))).conj()
+        middle = np.real(np.polymul(centre, centre.conj()))[:0:-1]  # ascending, degree 4
+        half = rng.uniform(0.02, 0.5) * np.abs(middle)
+        ends = [(rational.rounded(m - h, 6), rational.rounded(m + h, 6)) for m, h in zip(middle, half, strict=True)]
+        vertices = [fmpq_poly([*corner, 1]) for corner in itertools.product(*ends)]
+        by_vertices = all(poly.is_hurwitz(p) for p in vertices)
+        assert all(poly.is_hurwitz(p) for p in poly.kharitonov_corners(ends)) is by_vertices
+        outcomes.add(by_vertices)
+    assert outcomes == {True, False}
