@@ -19,12 +19,14 @@ from recontrol.report import artifacts, cite, difference, latex, tex
 
 
 def test_identities_are_unique_and_cover_every_kind(tree: Path) -> None:
-    entries = artifacts.index(tree, [fake.KEY])["artifacts"]
+    index = artifacts.index(tree, [fake.KEY])
+    entries = index["artifacts"]
     names = [entry["identity"] for entry in entries]
     assert len(names) == len(set(names))
     expected = "claims/eq55-11 quantities/margin/yaw synthesis/lqr/K synthesis/lqr certificates/loop-full figures/fig3"
     assert {f"{fake.KEY}/{name}" for name in expected.split()} <= set(names)
-    assert all(re.fullmatch("[0-9a-f]{64}", entry["sha256"]) for entry in entries)
+    assert {entry["file"] for entry in entries} == set(index["files"])
+    assert all(re.fullmatch("[0-9a-f]{64}", file["sha256"]) for file in index["files"].values())
 
 
 @pytest.mark.parametrize(

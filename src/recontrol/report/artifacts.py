@@ -25,20 +25,22 @@ Entry = dict[str, Any]
 
 
 def index(root: Path, papers: list[str]) -> dict[str, Any]:
-    """Return the content of results/index.json: one entry an identity, in a fixed order."""
+    """Return the content of results/index.json: one entry an identity, and the files with their stages and inputs."""
     entries = [entry for key in papers for entry in _of_paper(Paper(Path(root), key))]
-    return {"schema": SCHEMA, "artifacts": sorted(entries, key=lambda entry: entry["identity"])}
+    files = {entry["file"]: _file(Path(root), entry["file"]) for entry in entries}
+    return {"schema": SCHEMA, "artifacts": sorted(entries, key=lambda entry: entry["identity"]), "files": files}
 
 
 def lookup(root: Path, identity: str) -> Entry:
-    """Return the entry of an identity; ``paper/name`` is enough where it is unambiguous.
+    """Return the entry of an identity with that of its file; ``paper/name`` is enough where it is unambiguous.
 
     Raises UnknownNameError for an unknown or ambiguous one.
     """
     key = identity.partition("/")[0]
     if not (Path(root) / "papers" / key / "paper.yaml").is_file():
         raise UnknownNameError(f"no paper {key!r}; `recontrol list` shows the papers")
-    entries = {entry["identity"]: entry for entry in index(root, [key])["artifacts"]}
+    known = index(root, [key])
+    entries = {entry["identity"]: entry | known["files"][entry["file"]] for entry in known["artifacts"]}
     if identity in entries:
         return entries[identity]
     name = identity.partition("/")[2]
@@ -116,7 +118,6 @@ def _figure(paper: Paper, figure: dict[str, Any]) -> Entry:
 
 
 def _entry(paper: Paper, identity: str, kind: str, path: Path, value: str | None, rounded: str | None) -> Entry:
-    record = read_json(paper.root / "run" / "provenance" / f"{path.relative_to(paper.root).as_posix()}.json") or {}
     return {
         "identity": identity,
         "kind": kind,
@@ -125,12 +126,15 @@ def _entry(paper: Paper, identity: str, kind: str, path: Path, value: str | None
         "where": None,
         "title": None,
         "file": path.relative_to(paper.root).as_posix(),
-        "sha256": _sha256(path),
         "digest": value,
         "canonical_digest": rounded,
-        "stage": record.get("stage"),
-        "inputs": record.get("inputs") or {},
     }
+
+
+def _file(root: Path, name: str) -> dict[str, Any]:
+    """Digest of a file, and from its record the stage that made it and the digests of what went in."""
+    record = read_json(root / "run" / "provenance" / f"{name}.json") or {}
+    return {"sha256": _sha256(root / name), "stage": record.get("stage"), "inputs": record.get("inputs") or {}}
 
 
 def _sha256(path: Path) -> str:

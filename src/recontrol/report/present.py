@@ -161,30 +161,30 @@ def found_text(claim: Claim, finding: Finding) -> str:
     """Return what a reading found in one line."""
     if finding.error:
         return finding.error.strip().splitlines()[0]
-    cells = fitting(claim, finding)
-    if cells is not None and claim.rows is not None:
-        counted = [(cell, text) for cell, text in _compared(claim, cells) if cell is not None]
-        if len(counted) == 1:
-            cell, text = counted[0]
-            plainly = finding.strength == "exact" and numbers.distance(cell, numbers.write_like(cell, text)) == 0
-            return numbers.write_like(cell, text, 0 if plainly else GUARD)
-        compared = distances(claim, finding)
-        agreeing = len(compared) - len(far(claim, finding))
-        return f"{agreeing} of {len(compared)} entries agree"
+    counted = compared(claim, finding)
+    if len(counted) == 1:
+        cell, text = counted[0]
+        plainly = finding.strength == "exact" and numbers.distance(cell, numbers.write_like(cell, text)) == 0
+        return numbers.write_like(cell, text, 0 if plainly else GUARD)
+    if counted:
+        measured = distances(claim, finding)
+        return f"{len(measured) - len(far(claim, finding))} of {len(measured)} entries agree"
     if finding.cases:
         yes = sum(case.get("agrees") == "yes" for _, case in finding.cases)
         return f"{yes} of {len(finding.cases)} cases agree"
     return one_line(finding.value)
 
 
-def _compared(claim: Claim, cells: Grid) -> list[tuple[numbers.Cell | None, str]]:
-    """Return (found, printed) of the cells that the claim is about."""
-    return [
+def compared(claim: Claim, finding: Finding) -> list[tuple[numbers.Cell, str]]:
+    """Return (found, printed) of the cells that the claim is about; none where the two shapes differ."""
+    cells = fitting(claim, finding) or []
+    pairs = [
         (cells[i][j], text)
-        for i, row in enumerate(claim.rows or [])
+        for i, row in enumerate(claim.rows or [] if cells else [])
         for j, text in enumerate(row)
         if is_counted(claim, i, j) and numbers.is_number(text)
     ]
+    return [(cell, text) for cell, text in pairs if cell is not None]
 
 
 def one_line(value: Any) -> str:
@@ -228,13 +228,12 @@ def digits_text(claim: Claim, finding: Finding) -> str:
 
 def difference_text(claim: Claim, finding: Finding) -> str:
     """Return the absolute and the relative difference of a single printed number; empty for matrices."""
-    cells = fitting(claim, finding)
-    counted = _compared(claim, cells) if cells is not None else []
+    counted = compared(claim, finding)
     if len(counted) != 1:
         return ""
     cell, text = counted[0]
     model = numbers.parse_print(text)
-    if model is None or cell is None or cell.im is not None:
+    if model is None or cell.im is not None:
         return ""
     off = cell.re - model.value
     relative = f", relative {numbers.significant(off / model.value, 2)}" if model.value else ""
