@@ -6,6 +6,7 @@ import fcntl
 import os
 import re
 import sys
+import time
 import uuid
 from pathlib import Path
 from typing import IO
@@ -14,6 +15,7 @@ from recontrol.errors import RecontrolError
 from recontrol.pipeline import store
 
 LOCK = Path("run/lock")
+SOURCES = ("Snakefile", "environment.lock", "config", "rules", "papers", "src")
 LOOKING = re.compile(
     r"-[a-zA-Z]*n[a-zA-Z]*|--(dry-?run|lint|report|dag|rulegraph|filegraph|d3dag|list.*|summary|detailed-summary|"
     r"unlock|delete-all-output|delete-temp-output|help|version|generate-unit-tests|print-compilation|containerize|"
@@ -36,11 +38,22 @@ def enter(arguments: list[str] | None = None) -> None:
     look = only_looking(sys.argv[1:] if arguments is None else arguments)
     if not look:
         _lock()
+    for path in _dated_in_the_future():
+        print(f"recontrol: {path} carries a time in the future (a clock was off); taken as of now", file=sys.stderr)
+        if not look:
+            os.utime(path)
     for path, reason in store.untrusted():
         if look:
             print(f"recontrol: {path} {reason}; a run will rebuild it", file=sys.stderr)
         else:
             print(f"recontrol: {path} {reason}; moved to {store.set_aside(path)}, will be rebuilt", file=sys.stderr)
+
+
+def _dated_in_the_future() -> list[Path]:
+    """Sources that Snakemake would take for newer than anything it makes."""
+    limit = time.time() + store.CLOCK_SLACK
+    paths = [path for top in SOURCES for path in ([Path(top)] if Path(top).is_file() else Path(top).rglob("*"))]
+    return sorted(path for path in paths if path.is_file() and path.stat().st_mtime > limit)
 
 
 def _lock() -> None:

@@ -9,6 +9,7 @@ from __future__ import annotations
 import json
 import os
 import tempfile
+import time
 from collections.abc import Iterable, Mapping
 from pathlib import Path
 from typing import Any
@@ -19,6 +20,8 @@ from recontrol.pipeline.encode import loads, sha256
 RECORDS = Path("run/provenance")
 SET_ASIDE = Path("run/set-aside")
 KEPT = ("results", "figures")
+CLOCK_SLACK = 60.0
+"""Seconds that a time stamp may lie ahead of the clock."""
 
 
 def record_path(path: Path | str) -> Path:
@@ -128,12 +131,15 @@ def retract(paths: Iterable[Path]) -> None:
 
 
 def untrusted(tops: Iterable[str] = KEPT) -> list[tuple[Path, str]]:
-    """All artifacts under results/ and figures/ that differ from their record or have none, with the reason."""
+    """All artifacts under results/ and figures/ that cannot be trusted, with the reason."""
     found = []
+    limit = time.time() + CLOCK_SLACK
     for top in tops:
         for path in sorted(Path(top).rglob("*")):
             if path.is_file() and not path.name.startswith("."):
                 reason = mismatch(path)
+                if not reason and path.stat().st_mtime > limit:
+                    reason = "carries a time in the future, so that edits of its inputs would go unnoticed"
                 if reason:
                     found.append((path, reason))
     return found

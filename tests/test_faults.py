@@ -1,0 +1,174 @@
+"""Faults injected into whole runs: a clear message, recovery by the plain command, final bytes equal to a clean run.
+
+RECONTROL_KILLS sets the number of kills (default 8); RECONTROL_FAULT_PAPERS=all takes all papers instead of the toy.
+"""
+
+from __future__ import annotations
+
+import os
+import random
+import shutil
+import signal
+import subprocess
+import time
+from pathlib import Path
+
+import pytest
+from conftest import ROOT, Project, make_project
+
+from recontrol import paper as papers
+
+KILLS = int(os.environ.get("RECONTROL_KILLS", "8"))
+ALL_PAPERS = os.environ.get("RECONTROL_FAULT_PAPERS") == "all"
+
+
+@pytest.fixture(scope="module")
+def subject(tmp_path_factory, built_toy) -> tuple[Project, dict[str, bytes], float]:
+    """A project to break, the artifacts of its clean run, and how long that run takes."""
+    if ALL_PAPERS:
+        folders = {key: ROOT / "papers" / key for key in papers.discover(ROOT)}
+    else:
+        folders = {"toy2024": ROOT / "tests/toy/toy2024"}
+    project = make_project(tmp_path_factory.mktemp("faults") / "project", folders)
+    begin = time.monotonic()
+    project.snakemake("all", timeout=1800)
+    return project, project.artifacts(), time.monotonic() - begin
+
+
+@pytest.mark.timeout(6 * 3600 if ALL_PAPERS else 900)
+@pytest.mark.parametrize("seed", range(KILLS))
+def test_killed_at_a_seeded_moment(subject, seed):
+    """kill -9 of the whole run, or of Snakemake alone so that its stages live on as orphans."""
+    project, clean, duration = subject
+    for name in ("results", "figures"):
+        shutil.rmtree(project.folder / name, ignore_errors=True)
+    rng = random.Random(seed)
+    run = project.start("all")
+    time.sleep(rng.uniform(0.1, 1.0) * duration)
+    if rng.random() < 0.5:
+        os.killpg(run.pid, signal.SIGKILL)
+    else:
+        run.kill()
+    run.wait()
+    project.snakemake("all", timeout=1800)
+    assert project.artifacts() == clean
+
+
+@pytest.mark.parametrize("damage", ["truncated", "empty", "garbage", "swapped"])
+def test_damaged_artifact(toy, damage):
+    """An artifact cut short, emptied, overwritten with noise, or replaced by another one."""
+    clean = toy.artifacts()
+    path = toy.folder / "results/toy2024/simulation/decay.npz"
+    content = path.read_bytes()
+    other = (toy.folder / "results/toy2024/model.json").read_bytes()
+    path.write_bytes(
+        {"truncated": content[: len(content) // 2], "empty": b"", "garbage": os.urandom(500), "swapped": other}[damage]
+    )
+    result = toy.snakemake("all")
+    assert "decay.npz differs from its record" in result.stdout
+    assert toy.artifacts() == clean
+
+
+def test_lost_records(toy):
+    """All records of provenance deleted: nothing unproven is used, everything is built anew."""
+    clean = toy.artifacts()
+    shutil.rmtree(toy.folder / "run/provenance")
+    result = toy.snakemake("all")
+    assert "has no record of who made it" in result.stdout
+    assert toy.artifacts() == clean
+
+
+@pytest.mark.parametrize("year", [1990, 2090])
+def test_clock_far_off(toy, year):
+    """Sources or results carry times decades away."""
+    clean = toy.artifacts()
+    moment = (year - 1970) * 365.25 * 86400
+    for path in [
+        *(toy.folder / "results").rglob("*"),
+        *(toy.folder / "papers").rglob("*"),
+        *(toy.folder / "src").rglob("*.py"),
+    ]:
+        os.utime(path, (moment, moment))
+    toy.edit("papers/toy2024/helper.py", "FACTOR = 5", "FACTOR = 5  # the same")
+    os.utime(toy.folder / "papers/toy2024/helper.py", (moment + 60, moment + 60))
+    toy.snakemake("all")
+    assert toy.artifacts() == clean
+
+
+def test_results_dated_in_the_future_do_not_hide_an_edit(toy):
+    """Results from a machine whose clock was ahead: an edit made now still reruns what depends on it."""
+    for path in (toy.folder / "results").rglob("*.*"):
+        os.utime(path, (time.time() + 1e6, time.time() + 1e6))
+    toy.edit("papers/toy2024/helper.py", "FACTOR = 5", "FACTOR = 6")
+    result = toy.snakemake("toy2024", check=False)
+    assert "carries a time in the future" in result.stdout
+    assert "eq2-k" in result.stdout
+    assert '"3/2"' in (toy.folder / "results/toy2024/synthesis/gain.json").read_text()
+
+
+@pytest.fixture
+def small_disk(fresh_toy):
+    """An unbuilt toy whose results lie on a file system of its own; yields (project, remount)."""
+    project = fresh_toy("small")
+    results = project.folder / "results"
+    results.mkdir()
+
+    def mount(options: str) -> None:
+        command = ["mount", "-t", "tmpfs", "-o", options, "none", str(results)]
+        if subprocess.run(command, capture_output=True).returncode:
+            pytest.skip("a tmpfs cannot be mounted here")
+
+    def unmount() -> None:
+        subprocess.run(["umount", "-l", str(results)], capture_output=True)
+
+    yield project, mount, unmount
+    unmount()
+
+
+@pytest.mark.parametrize(
+    ("options", "words"), [("size=8k", "No space left on device"), ("ro,size=1m", "Read-only file system")]
+)
+def test_results_cannot_be_written(small_disk, built_toy, options, words):
+    """A full or read-only disk under results/: the cause and the way out are named, nothing is half-written."""
+    project, mount, unmount = small_disk
+    mount(options)
+    result = project.snakemake("all", check=False)
+    assert result.returncode != 0
+    assert words in result.stdout
+    assert not list((project.folder / "results").rglob("*.part"))
+    unmount()
+    project.snakemake("all")
+    assert project.artifacts() == built_toy.artifacts()
+
+
+def test_half_made_environment_is_built_again(tmp_path):
+    """An environment without its stamp is cleared, whatever it holds."""
+    lock = tmp_path / "empty.lock"
+    lock.write_text("")
+    venv = tmp_path / "venv"
+    (venv / "bin").mkdir(parents=True)
+    (venv / "bin/python").write_text("broken")
+    script = ROOT / "tools/environment.py"
+    for said in ("unfinished or outdated", ""):
+        result = run_python(script, str(venv), str(lock))
+        assert result.returncode == 0, result.stdout + result.stderr
+        assert said in result.stdout
+    assert (venv / "complete").exists()
+    assert not result.stdout
+
+
+def test_unreadable_lock_leaves_no_environment(tmp_path):
+    """A lock that pip refuses: the step that failed is named, and no stamp is left."""
+    lock = tmp_path / "bad.lock"
+    lock.write_text("six==1.16.0 \\\n    --hash=sha256:zz\n")
+    result = run_python(ROOT / "tools/environment.py", str(tmp_path / "venv"), str(lock))
+    assert result.returncode != 0
+    assert "packages of" in result.stderr
+    assert not (tmp_path / "venv/complete").exists()
+
+
+def run_python(script: Path, *arguments: str) -> subprocess.CompletedProcess[str]:
+    import sys
+
+    command = [sys.executable, str(script), *arguments]
+    return subprocess.run(command, cwd=ROOT, capture_output=True, text=True, timeout=300)
