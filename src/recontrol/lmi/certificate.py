@@ -6,11 +6,11 @@ from collections.abc import Mapping
 from typing import Any
 
 import numpy as np
-from flint import arb, fmpq
+from flint import arb
 
 from recontrol.exact import ball, rational
 from recontrol.lmi import verify
-from recontrol.lmi.affine import AffineMatrix
+from recontrol.lmi.affine import AffineMatrix, is_zero
 from recontrol.lmi.conditions import Condition
 from recontrol.lmi.problem import Problem
 from recontrol.lmi.variables import Variable
@@ -72,17 +72,13 @@ def encode_form(c: Condition, form: AffineMatrix) -> dict[str, Any]:
         "name": c.name,
         "sense": normal_sense(c),
         "size": form.shape[0],
-        "constant": _sparse(form.constant(), upper=not c.is_equality),
-        "coefficients": {str(i): _sparse(M, upper=not c.is_equality) for i, M in form.coefficients().items()},
+        "constant": _sparse(dict(np.ndenumerate(form.constant)), upper=not c.is_equality),
+        "coefficients": {str(i): _sparse(M, upper=not c.is_equality) for i, M in form.coefficients.items()},
     }
 
 
-def _sparse(M: np.ndarray, *, upper: bool) -> list[list[Any]]:
-    return [
-        [i, j, entry(x)]
-        for (i, j), x in np.ndenumerate(M)
-        if not (upper and j < i) and not (isinstance(x, (fmpq, int)) and x == 0)
-    ]
+def _sparse(M: Mapping[Any, Any], *, upper: bool) -> list[list[Any]]:
+    return [[i, j, entry(x)] for (i, j), x in sorted(M.items()) if not (upper and j < i) and not is_zero(x)]
 
 
 def header(problem: Problem, statement: str, proof: str, says: str, precision: int, notes: Mapping[str, str]) -> dict:

@@ -72,8 +72,8 @@ class Condition:
         if kind in (blocks.EXACT, blocks.BALL):
             linalg.check_symmetric(M, self.name)
         elif kind == blocks.AFFINE:
-            for N in M.terms.values():
-                linalg.check_symmetric(N, self.name)
+            if not M.is_symmetric():
+                raise linalg.NotSymmetricError(f"{self.name}: the value is not symmetric for every unknown")
         elif kind == blocks.FLOAT and not np.allclose(M, M.T, rtol=1e-9, atol=1e-9 * (1e-300 + np.abs(M).max())):
             raise linalg.NotSymmetricError(f"{self.name}: the value is not symmetric")
 
@@ -134,7 +134,7 @@ class Objective:
     def affine(self, values: Mapping[str, Any]) -> tuple[Any, dict[int, Any]]:
         """Constant and coefficients by unknown."""
         form = lift(self.value(values))
-        return form.constant()[0, 0], {i: M[0, 0] for i, M in form.coefficients().items()}
+        return form.constant[0, 0], {i: M[0, 0] for i, M in form.coefficients.items()}
 
 
 def minimise(function: Callable[..., Any], **rename: str) -> Objective:

@@ -6,6 +6,8 @@ Multipliers Z_c >= 0 with sum_c <Z_c, M_ci> = c_i prove a lower bound of c'x; wi
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+from contextlib import suppress
 from dataclasses import dataclass
 from typing import Any
 
@@ -14,15 +16,17 @@ import numpy as np
 from recontrol.errors import RecontrolError
 from recontrol.exact import ball, rational
 from recontrol.lmi import solvers
-from recontrol.lmi.faces import Faced, exposed_faces
+from recontrol.lmi.faces import Faced, Faces, exposed_faces
 from recontrol.lmi.problem import Problem
 
 # Violation below which conditions count as infeasible: homogeneous ones end at zero, not above.
 FEASIBLE_BY = 1e-7
-# Least eigenvalue of scaled multipliers (of unit total trace) below which they count as singular.
-SINGULAR = 1e-8
-# Faces may have faces. A basis is known to the root of a solver's accuracy only: simple fractions are tried twice.
-ROUNDS, RECOGNISED = 3, (1e-6, 1e-3)
+# Least eigenvalue of multipliers (of unit total trace) that counts as none.
+SINGULAR = 1e-7
+# Faces may have faces. A basis is known to the root of a solver's accuracy only: simple fractions are tried thrice.
+ROUNDS, RECOGNISED = 3, (1e-6, 1e-4, 1e-2)
+# The search for faces reads small numbers off the point: the solver goes as far as it can.
+SHARP = {"CLARABEL": {"tol_gap_abs": 1e-13, "tol_gap_rel": 1e-13, "tol_feas": 1e-13}}
 
 
 class NotProvenError(RecontrolError, ArithmeticError):
@@ -52,18 +56,21 @@ def float_form(faced: Faced) -> FloatForm:
     import scipy.sparse
 
     problem = faced.problem
-    units = [float(rational.to_float(u)) for u in problem.unknown_units]
+    units = [float(rational.to_float(u)) for u in faced.unknown_units]
     constants, coefficients = {}, {}
     for c in problem.named:
         form = faced.forms[c.name]
         s = rational.to_float(np.array(faced.row_units[c.name], dtype=object).reshape(-1))
         w = np.outer(s, s) if not c.is_equality else np.ones(form.shape)
-        constants[c.name] = ball.midpoint(form.constant()) * w
-        shape = (form.shape[0] * form.shape[1], problem.size)
-        columns = scipy.sparse.lil_array(shape)
-        for i, M in form.coefficients().items():
-            columns[:, [i]] = (ball.midpoint(M) * w * units[i]).reshape(-1, 1)
-        coefficients[c.name] = columns.tocsc()
+        constants[c.name] = ball.midpoint(form.constant) * w
+        m, n = form.shape
+        triples = [
+            (ball.midpoint(x) * w[place] * units[i], place[0] * n + place[1], i)
+            for i, M in form.coefficients.items()
+            for place, x in M.items()
+        ]
+        entries, rows, columns = (np.array(part) for part in zip(*triples, strict=True)) if triples else ([], [], [])
+        coefficients[c.name] = scipy.sparse.csc_array((entries, (rows, columns)), shape=(m * n, problem.size))
     costs = np.zeros(problem.size)
     for i, cost in problem.costs[1].items():
         costs[i] = float(ball.midpoint(cost)) * units[i]
@@ -77,7 +84,7 @@ def float_form(faced: Faced) -> FloatForm:
 def held_off_bound(
     faced: Faced, margin: float, dual_margin: float, solver: str, time_limit: float
 ) -> tuple[np.ndarray, dict[str, np.ndarray]]:
-    """Scaled point with M_s >= margin I and scaled multipliers Z_s >= dual_margin I, from one solve.
+    """Unknowns in original units with M_s >= margin I, and scaled Z_s >= dual_margin I, from one solve.
 
     Minimising c'x - dual_margin sum tr M_s(x) shifts the multipliers by dual_margin I: they become the dual variables
     plus dual_margin I, interior by construction. Raises NotProvenError if the solver finds no point.
@@ -96,12 +103,13 @@ def held_off_bound(
         constraints.append(M - margin * np.eye(len(constant)) >> 0)
         objective = objective - dual_margin * cvxpy.trace(M)
     constraints += _box(form, x)
-    run = _run(cvxpy.Problem(cvxpy.Minimize(objective), constraints), solver, time_limit, "the bound")
+    run = _run(cvxpy.Problem(cvxpy.Minimize(objective), constraints), solver, time_limit, "the bound", sharp=True)
     Z = {}
     for (name, constant), dual in zip(form.constants.items(), run.duals, strict=False):
         shift = 0.0 if name in form.equalities else dual_margin * np.eye(len(constant))
         Z[name] = (_symmetric(dual, name in form.equalities) + shift) * size
-    return np.asarray(run.values[0], dtype=float), Z
+    units = rational.to_float(np.array(faced.unknown_units, dtype=object))
+    return np.asarray(run.values[0], dtype=float) * units, Z
 
 
 def _box(form: FloatForm, x: Any, s: Any = 1.0) -> list[Any]:
@@ -150,7 +158,7 @@ def interior_multipliers(faced: Faced, needed: float | None, solver: str, time_l
     constraints += _box(form, x, s) if needed is not None else [s == 0, form.costs @ x == 0]
     constraints += [x[i] == 0 for i in form.boxes] if needed is None else []
     model = cvxpy.Problem(cvxpy.Minimize(t - s * (needed or 0.0)), constraints)
-    run = _run(model, solver, time_limit, "the interior multipliers")
+    run = _run(model, solver, time_limit, "the interior multipliers", sharp=True)
     least = float(run.reported if run.reported is not None else 0.0)
     Z = {n: _symmetric(dual, False) + least * np.eye(len(dual)) for n, dual in zip(names, run.duals, strict=False)}
     for name, dual in zip(form.equalities, run.duals[len(names) + 1 :], strict=False):
@@ -160,37 +168,43 @@ def interior_multipliers(faced: Faced, needed: float | None, solver: str, time_l
     return Interior(Z, least, {n: np.asarray(M.value) for n, M in N.items()})
 
 
-def on_faces(faced: Faced, needed: float | None, solver: str, time_limit: float) -> tuple[Faced, Interior]:
-    """Interior multipliers, on faces of faces where there is no interior; what was found best, and where.
+def candidates(faced: Faced, needed: float | None, solver: str, time_limit: float) -> Iterator[tuple[Faced, Interior]]:
+    """Interior multipliers, then those on faces that they are forced to, widest interior first.
 
-    Raises NotProvenError only if the first search gives no point.
+    Each is worth a try at an exact proof. Raises NotProvenError only if the first search gives no point.
     """
-    best = (faced, interior_multipliers(faced, needed, solver, time_limit))
+    level = [(faced, interior_multipliers(faced, needed, solver, time_limit))]
     for _ in range(ROUNDS):
-        if best[1].least > SINGULAR:
-            break
-        tried = best
+        yield from level
+        where, found = level[0]
+        if abs(found.least) > SINGULAR:
+            return
+        level = []
+        seen: list[dict[str, np.ndarray]] = []
         for tolerance in RECOGNISED:
-            smaller = exposed_faces(best[0], best[1].exposing, tolerance)
-            try:
-                if smaller and all(W.shape[1] for W in smaller.values()):
-                    narrowed = Faced(faced.problem, smaller)
-                    tried = (narrowed, interior_multipliers(narrowed, needed, solver, time_limit))
-            except NotProvenError:
+            smaller = exposed_faces(where, found.exposing, found.multipliers, tolerance)
+            if not smaller or any(_equal(smaller, other) for other in seen):
                 continue
-            if tried[1].least > SINGULAR:
-                break
-        if tried is best:
-            break
-        best = tried
-    return best
+            seen.append(smaller)
+            narrowed = Faced(faced.problem, smaller)
+            with suppress(NotProvenError):
+                level.append((narrowed, interior_multipliers(narrowed, needed, solver, time_limit)))
+        level = sorted((e for e in level if e[1].least > -SINGULAR), key=lambda e: -e[1].least)
+        if not level:
+            return
 
 
-def _run(model: Any, solver: str, time_limit: float, what: str) -> solvers.Run:
-    run = solvers.run(model, solvers.profile(solver), time_limit)
-    if run.outcome not in (solvers.OPTIMAL, solvers.INACCURATE) or any(v is None for v in run.values):
-        raise NotProvenError(f"{solver} gave no point for {what}: {run.words}")
-    return run
+def _equal(a: Faces, b: Faces) -> bool:
+    return a.keys() == b.keys() and all(a[n].shape == b[n].shape and bool(np.all(a[n] == b[n])) for n in a)
+
+
+def _run(model: Any, solver: str, time_limit: float, what: str, *, sharp: bool = False) -> solvers.Run:
+    attempts: list[dict[str, float]] = [SHARP[solver], {}] if sharp and solver in SHARP else [{}]
+    for options in attempts:
+        run = solvers.run(model, solvers.profile(solver, **options), time_limit)
+        if run.outcome in (solvers.OPTIMAL, solvers.INACCURATE) and all(v is not None for v in run.values):
+            return run
+    raise NotProvenError(f"{solver} gave no point for {what}: {run.words}")
 
 
 def _symmetric(dual: Any, equality: bool) -> np.ndarray:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field
+from functools import cached_property
 from typing import Any
 
 import numpy as np
@@ -103,9 +104,9 @@ def enclose(
 ) -> Enclosure:
     """Rigorous lower and upper bound of the optimal value of ``problem``.
 
-    One solve of a perturbed problem gives a point that holds every condition by ``margin`` and multipliers held
-    off zero by as much, both in scaled units; they are rounded, repaired exactly and proven. Without ``margin`` the
-    back-off grows tenfold from 1e-9 to 1e-5 until both sides are proven. The stated bounds are rounded outwards to
+    A first solve shows the size of everything near the optimum. In units of that size, one solve of a perturbed problem
+    gives a point that holds every condition by ``margin`` and multipliers held off zero by as much; they are rounded,
+    repaired exactly and proven. Without ``margin`` the back-off grows tenfold from 1e-9 to 1e-5 until both sides are proven. The stated bounds are rounded outwards to
     ``digits`` significant digits. ``faces`` as in `proof.prove_infeasible`. Raises NotProvenError.
     """
     if problem.objective is None:
@@ -139,45 +140,61 @@ class _Search:
     failures: list[str] = field(default_factory=list)
 
     def step(self, back_off: str, common: dict[str, Any]) -> None:
-        """Try the sides that are still open at this back-off."""
-        self.failures = []
-        x, floats = self._floats(float(back_off))
-        if self.by_point is None and x is not None:
+        """Try the sides that are still open at this back-off.
+
+        One solve gives both, unless the multipliers live on faces: then the perturbed problem has no solution.
+        """
+        self.failures, off, whole = [], float(back_off), Faced(self.problem, {}, self.near)
+        if not self.faced.faces and (found := self._solved(whole, off, off)):
+            self._point(found[0], common)
+            self._multipliers(whole, found[1], common)
+        if self.by_point is None and (found := self._solved(whole, off, 0.0)):
+            self._point(found[0], common)
+        for faced in self.narrowed:
+            if self.by_multipliers is None and (found := self._solved(faced, 0.0, off)):
+                self._multipliers(faced, found[1], common)
+
+    @cached_property
+    def near(self) -> tuple[float, ...] | None:
+        """Unknowns near the optimum, for units in which both sides can be held off by little."""
+        found = self._solved(Faced(self.problem, {}), 0.0, 0.0)
+        return tuple(found[0]) if found and np.isfinite(found[0]).all() else None
+
+    @cached_property
+    def narrowed(self) -> list[Faced]:
+        """The given faces, or those that are found."""
+        if self.faced.faces:
+            return [Faced(self.problem, self.faced.faces, self.near)]
+        try:
+            found = [f for f, _ in duality.candidates(self.faced, None, self.solver, self.time_limit)]
+            found = [Faced(self.problem, f.faces, self.near) for f in found]
+        except NotProvenError as error:
+            self.failures.append(str(error))
+            return []
+        return found[1:]
+
+    def _solved(self, faced: Faced, margin: float, dual: float) -> tuple[np.ndarray, dict[str, np.ndarray]] | None:
+        try:
+            return duality.held_off_bound(faced, margin, dual, self.solver, self.time_limit)
+        except NotProvenError as error:
+            self.failures.append(str(error))
+            return None
+
+    def _point(self, x: np.ndarray, common: dict[str, Any]) -> None:
+        if self.by_point is None:
             try:
                 point = proof.rounded_point(self.problem, _point_of(self.problem, x), self.decimals[0])
                 self.by_point, self.point = bound_by_point(self.problem, point, **common), point
             except NotProvenError as error:
                 self.failures.append(str(error))
-        if self.by_multipliers is None and floats is not None:
+
+    def _multipliers(self, faced: Faced, floats: dict[str, np.ndarray], common: dict[str, Any]) -> None:
+        if self.by_multipliers is None:
             try:
-                exact = rationalise(self.faced, floats, self.decimals[1])
+                exact = rationalise(faced, floats, self.decimals[1])
                 self.by_multipliers = bound_by_multipliers(self.problem, exact, **common)
             except NotProvenError as error:
                 self.failures.append(str(error))
-
-    def _floats(self, off: float) -> tuple[np.ndarray | None, dict[str, np.ndarray] | None]:
-        """Point and multipliers from one solve, or from two where the multipliers live on faces."""
-        run = (self.solver, self.time_limit)
-        if not self.faced.faces:
-            try:
-                return duality.held_off_bound(self.faced, off, off, *run)
-            except NotProvenError as error:
-                self.failures.append(str(error))
-            # Multipliers without interior make the perturbed problem unbounded.
-            self.faced = self._faces()
-        x = floats = None
-        try:
-            x = duality.held_off_bound(Faced(self.problem, {}), off, 0.0, *run)[0]
-            floats = duality.held_off_bound(self.faced, 0.0, off, *run)[1] if self.faced.faces else None
-        except NotProvenError as error:
-            self.failures.append(str(error))
-        return x, floats
-
-    def _faces(self) -> Faced:
-        try:
-            return duality.on_faces(self.faced, None, self.solver, self.time_limit)[0]
-        except NotProvenError:
-            return self.faced
 
 
 def _dual_value(problem: Problem, exact: Multipliers) -> Any:
@@ -186,9 +203,9 @@ def _dual_value(problem: Problem, exact: Multipliers) -> Any:
     value, residual = constant, dict(costs)
     for name, Z in exact.matrices.items():
         form = problem.forms[name]
-        value = value - rational.trace_product(form.constant(), Z)
-        for i, M in form.coefficients().items():
-            residual[i] = residual.get(i, fmpq(0)) - rational.trace_product(M, Z)
+        value = value - rational.trace_product(form.constant, Z)
+        for i, M in form.coefficients.items():
+            residual[i] = residual.get(i, fmpq(0)) - sum((x * Z[place] for place, x in M.items()), fmpq(0))
     for i, (low, high) in problem.unknown_boxes.items():
         r = residual.get(i, fmpq(0))
         value = value + (min(r * low, r * high) if ball.has_balls(r) is False else ball.to_ball(r * low).min(r * high))
@@ -212,10 +229,9 @@ def _outwards(value: fmpq, digits: int, direction: int) -> fmpq:
 
 
 def _point_of(problem: Problem, x: np.ndarray) -> dict[str, Any]:
-    """Float point in original units from the scaled vector of unknowns."""
+    """Float point from the vector of unknowns in original units."""
     out = {}
     for name, v in problem.variables.items():
         first = problem.offsets[name]
-        scaled = np.reshape(v.matrix(x[first : first + v.size]), v.matrix_shape)
-        out[name] = scaled * rational.to_float(problem.weights[name])
+        out[name] = np.reshape(v.matrix(x[first : first + v.size]), v.matrix_shape)
     return out

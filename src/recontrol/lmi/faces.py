@@ -18,57 +18,66 @@ from typing import Any
 import numpy as np
 from flint import fmpq
 
-from recontrol.exact import ball, linalg, rational
+from recontrol.exact import linalg, rational
 from recontrol.lmi import scaling
-from recontrol.lmi.affine import CONSTANT, AffineMatrix
+from recontrol.lmi.affine import AffineMatrix, magnitudes
 from recontrol.lmi.problem import Problem
 
 Faces = Mapping[str, np.ndarray]
 
-# Eigenvalues of the N_c that count as nonzero, relative to the largest entry; a solver leaves noise near 1e-9.
-WIDE = 1e-5
+# A direction counts as exposed if N is this much larger than Z in it.
+WIDE = 1e3
+# Diagonal entries that vanish at a point are taken as this share of their terms.
+SMALL = 1e-8
 
 
 @dataclass(frozen=True)
 class Faced:
-    """The conditions of a problem restricted to faces: forms W' M W, their row units, and the way back Z = W Y W'."""
+    """The conditions of a problem restricted to faces: forms W' M W, their units, and the way back Z = W Y W'.
+
+    ``near``, floats of all unknowns in original units, rescales unknowns and rows to be of order one there. A proof may
+    use any units; the problem's own, which must not depend on its answer, stay for what is reported.
+    """
 
     problem: Problem
     faces: Faces
+    near: tuple[float, ...] | None = None
 
     @cached_property
     def forms(self) -> dict[str, AffineMatrix]:
         """Exact restricted forms by condition."""
         out = {}
         for name, form in self.problem.forms.items():
-            if name in self.faces:
-                W = self.faces[name]
-                r = W.shape[1]
-                out[name] = AffineMatrix((r, r), {i: W.T @ M @ W for i, M in form.terms.items()})
-            else:
-                out[name] = form
+            out[name] = form.congruent(self.faces[name]) if name in self.faces else form
         return out
 
     @cached_property
     def row_units(self) -> dict[str, list[fmpq]]:
-        """Exact row units: the problem's, or balanced anew on a face."""
+        """Exact row units: the problem's, balanced anew on a face, or unit diagonal at `near`."""
         out = dict(self.problem.row_units)
-        for name in self.faces:
-            out[name] = scaling.balance(magnitudes(self.forms[name], self.problem.unknown_units))
+        for name in self.forms if self.near is not None else self.faces:
+            sizes = magnitudes(self.forms[name], self.unknown_units)
+            out[name] = scaling.balance(sizes)
+            if self.near is not None:
+                at = np.diag(self.forms[name].float_at(self.near))
+                floor = SMALL * np.where(np.diag(sizes) > 0, np.diag(sizes), 1.0)
+                out[name] = [scaling.power_of_two(x) for x in 1 / np.sqrt(np.maximum(at, floor))]
+        return out
+
+    @cached_property
+    def unknown_units(self) -> list[fmpq]:
+        """Unit of every scalar unknown: the problem's, or the largest modulus in its variable at `near`."""
+        out = list(self.problem.unknown_units)
+        for name, v in self.problem.variables.items() if self.near is not None else ():
+            first = self.problem.offsets[name]
+            largest = max(map(abs, (self.near or ())[first : first + v.size]))
+            if largest > 0:
+                out[first : first + v.size] = [scaling.power_of_two(largest)] * v.size
         return out
 
     def lifted(self, name: str, Y: np.ndarray) -> np.ndarray:
         """Multiplier of the whole condition, W Y W'."""
         return self.faces[name] @ Y @ self.faces[name].T if name in self.faces else Y
-
-
-def magnitudes(form: AffineMatrix, units: list[fmpq]) -> np.ndarray:
-    """Largest modulus of each entry over constant and scaled coefficients."""
-    total = np.zeros(form.shape)
-    for i, M in form.terms.items():
-        unit = 1.0 if i == CONSTANT else float(rational.to_float(units[i]))
-        total = np.maximum(total, np.abs(ball.midpoint(M)) * unit)
-    return total
 
 
 def given_faces(problem: Problem, given: Mapping[str, Any] | None) -> dict[str, np.ndarray]:
@@ -87,30 +96,32 @@ def complement(V: np.ndarray) -> np.ndarray:
     return linalg.nullspace(V.T)
 
 
-def exposed_faces(faced: Faced, exposing: Mapping[str, np.ndarray], tolerance: float) -> dict[str, np.ndarray]:
+def exposed_faces(
+    faced: Faced, exposing: Mapping[str, np.ndarray], multipliers: Mapping[str, np.ndarray], tolerance: float
+) -> dict[str, np.ndarray]:
     """Smaller faces from scaled N_c >= 0 that all multipliers are orthogonal to; empty if none is left out.
 
     Each basis is read off the range of N_c as rationals, the simplest within ``tolerance``.
     """
-    found, largest = {}, max((float(np.abs(N).max(initial=0.0)) for N in exposing.values()), default=0.0)
+    found = {}
     for name, N in exposing.items():
-        W = _complement(N / max(largest, 1e-300), faced.row_units[name], tolerance)
-        if W is not None:
+        W = _complement(N, multipliers[name], faced.row_units[name], tolerance)
+        if W is not None and W.shape[1]:
             found[name] = faced.faces[name] @ W if name in faced.faces else W
     return {**faced.faces, **found} if found else {}
 
 
-def _complement(N: np.ndarray, row_units: list[fmpq], tolerance: float) -> np.ndarray | None:
+def _complement(N: np.ndarray, Z: np.ndarray, row_units: list[fmpq], tolerance: float) -> np.ndarray | None:
     """Rational basis (n, r) of the orthogonal complement of the range of S^-1 N S^-1; None if the range is zero.
 
-    N has entries up to one.
+    At the solver's point N Z is nearly zero: a direction is in the range if N is large in it and Z small.
 
     The range is brought to reduced echelon form, whose entries are recognised as fractions.
     """
     import scipy.linalg
 
     values, vectors = np.linalg.eigh((N + N.T) / 2)
-    wide = vectors[:, values > WIDE]
+    wide = vectors[:, values > WIDE * np.abs(np.einsum("ij,ik,kj->j", vectors, Z, vectors))]
     if not wide.shape[1]:
         return None
     s = rational.to_float(np.array(row_units, dtype=object))

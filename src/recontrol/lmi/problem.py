@@ -12,7 +12,7 @@ from flint import fmpq
 
 from recontrol.exact import ball, rational
 from recontrol.lmi import scaling, solvers
-from recontrol.lmi.affine import CONSTANT, AffineMatrix
+from recontrol.lmi.affine import AffineMatrix, lift, magnitudes
 from recontrol.lmi.conditions import Condition, Objective, condition
 from recontrol.lmi.solvers import FAILED, INACCURATE, INFEASIBLE, OPTIMAL
 from recontrol.lmi.variables import Variable, offsets
@@ -192,17 +192,10 @@ class Problem:
             if c.name in self.rows:
                 out[c.name] = scaling.as_factors(self.rows[c.name], n, f"{self.name}, rows of {c.name}")
             elif self.balanced and not c.is_equality:
-                out[c.name] = scaling.balance(self._magnitudes(self.forms[c.name]))
+                out[c.name] = scaling.balance(magnitudes(self.forms[c.name], self.unknown_units))
             else:
                 out[c.name] = [fmpq(1)] * n
         return out
-
-    def _magnitudes(self, form: AffineMatrix) -> np.ndarray:
-        total = np.zeros(form.shape)
-        for i, M in form.terms.items():
-            unit = 1.0 if i == CONSTANT else float(rational.to_float(self.unknown_units[i]))
-            total = np.maximum(total, np.abs(ball.midpoint(M)) * unit)
-        return total
 
     # -- float side ------------------------------------------------------------------------------------------------
 
@@ -240,7 +233,7 @@ class Problem:
         return out
 
     def _constant_size(self, name: str, s: np.ndarray | None) -> float:
-        M = np.abs(ball.midpoint(self.forms[name].constant()))
+        M = np.abs(ball.midpoint(self.forms[name].constant))
         return float((M if s is None else s[:, None] * M * s[None, :]).max(initial=0.0))
 
     def value(self, point: Mapping[str, Any]) -> float | None:
@@ -329,7 +322,7 @@ def _close(a: float, b: float) -> bool:
 
 
 def _lifted(M: Any) -> AffineMatrix:
-    return M if isinstance(M, AffineMatrix) else AffineMatrix(M.shape, {CONSTANT: M})
+    return M if isinstance(M, AffineMatrix) else lift(M)
 
 
 def _to_float(value: Any) -> Any:

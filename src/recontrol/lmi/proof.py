@@ -6,7 +6,8 @@ no refutation. What a function returns has passed `verify.arithmetic`.
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
+from contextlib import suppress
 from dataclasses import replace
 from typing import Any
 
@@ -122,32 +123,34 @@ def prove_infeasible(
     the multipliers turn out singular. The statement is
     "exclusion" for a problem with boxes, else "infeasible". Raises NotProvenError.
     """
-    notes = dict(notes or {})
-    if multipliers is None:
-        exact, found = find_multipliers(problem, decimals, solver, time_limit, faces)
-        notes = {"solver": solver, **found, **notes}
-    else:
-        exact = given_multipliers(problem, multipliers)
+    statement = "exclusion" if problem.boxes else "infeasible"
     says = says or f"{problem.name}: the conditions contradict each other"
-    return multiplier_certificate(
-        problem, exact, "exclusion" if problem.boxes else "infeasible", says, precision, notes
-    )
+    if multipliers is not None:
+        exact = given_multipliers(problem, multipliers)
+        return multiplier_certificate(problem, exact, statement, says, precision, notes or {})
+    failure = NotProvenError(f"{problem.name}: the multipliers' equations cannot be met in rationals")
+    for exact, found in _found_multipliers(problem, decimals, solver, time_limit, faces):
+        try:
+            return multiplier_certificate(problem, exact, statement, says, precision, {**found, **(notes or {})})
+        except NotProvenError as error:
+            failure = error
+    raise failure
 
 
-def find_multipliers(
-    problem: Problem, decimals: int, solver: str, time_limit: float, faces: Mapping[str, Any] | None = None
-) -> tuple[Multipliers, dict[str, str]]:
-    """Exact multipliers that contradict the conditions, and notes on how they were found. Raises NotProvenError."""
+def _found_multipliers(
+    problem: Problem, decimals: int, solver: str, time_limit: float, faces: Mapping[str, Any] | None
+) -> Iterator[tuple[Multipliers, dict[str, str]]]:
+    """Exact multipliers worth a try, and notes on how they were found. Raises NotProvenError if there are none."""
     bare = problem if problem.objective is None else replace(problem, objective=None)
     violation = duality.least_violation(bare, solver, time_limit)
     if violation < -duality.FEASIBLE_BY:
         raise NotProvenError(f"{problem.name}: {solver} finds a point with common margin {-violation:.3g}")
-    needed = max(violation, 0.0) / 2
     start = Faced(bare, given_faces(bare, faces))
-    faced, found = duality.on_faces(start, needed, solver, time_limit)
-    notes = {"violation": f"{violation:.3e}", "least_eigenvalue": f"{found.least:.3e}"}
-    notes |= {"faces": ", ".join(f"{n}: {W.shape[1]} of {W.shape[0]}" for n, W in faced.faces.items())}
-    return rationalise(faced, found.multipliers, decimals), {key: value for key, value in notes.items() if value}
+    for faced, found in duality.candidates(start, max(violation, 0.0) / 2, solver, time_limit):
+        notes = {"solver": solver, "violation": f"{violation:.3e}", "least_eigenvalue": f"{found.least:.3e}"}
+        notes["faces"] = ", ".join(f"{n}: {W.shape[1]} of {W.shape[0]}" for n, W in faced.faces.items())
+        with suppress(NotProvenError):
+            yield rationalise(faced, found.multipliers, decimals), {k: v for k, v in notes.items() if v}
 
 
 def given_multipliers(problem: Problem, multipliers: Mapping[str, Any]) -> Multipliers:

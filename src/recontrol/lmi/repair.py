@@ -9,10 +9,12 @@ import numpy as np
 from flint import arb, fmpq
 
 from recontrol.exact import linalg, rational
-from recontrol.lmi.affine import CONSTANT
-from recontrol.lmi.duality import NotProvenError
+from recontrol.lmi.affine import Entries, is_zero
+from recontrol.lmi.duality import FloatForm, NotProvenError, float_form
 from recontrol.lmi.faces import Faced
 from recontrol.lmi.problem import Problem
+
+PROJECTIONS = 4
 
 
 @dataclass(frozen=True)
@@ -32,8 +34,10 @@ def slack_conditions(problem: Problem) -> dict[str, set[int]]:
     taken = set(problem.unknown_boxes)
     for c in problem.named:
         form = problem.forms[c.name]
-        coefficients = form.coefficients()
-        if c.is_equality or CONSTANT in form.terms or not coefficients or taken & set(coefficients):
+        coefficients = form.coefficients
+        if c.is_equality or not coefficients or taken & set(coefficients):
+            continue
+        if not all(is_zero(x) for x in form.constant.flat):
             continue
         places: set[tuple[int, int]] = set()
         if all(_is_unit(M, places) for M in coefficients.values()):
@@ -42,23 +46,27 @@ def slack_conditions(problem: Problem) -> dict[str, set[int]]:
     return out
 
 
-def _is_unit(M: np.ndarray, places: set[tuple[int, int]]) -> bool:
-    found = {(i, j) for (i, j), x in np.ndenumerate(M) if i <= j and not (type(x) is fmpq and x == 0)}
-    if len(found) != 1 or found & places or any(isinstance(x, arb) for x in M.flat):
+def _is_unit(M: Entries, places: set[tuple[int, int]]) -> bool:
+    found = {(i, j) for i, j in M if i <= j}
+    if len(found) != 1 or found & places or any(isinstance(x, arb) or x != 1 for x in M.values()):
         return False
     places |= found
-    return M[next(iter(found))] == 1
+    return True
 
 
 def rationalise(faced: Faced, scaled: Mapping[str, np.ndarray], decimals: int) -> Multipliers:
     """Scaled float multipliers as exact ones in original units that satisfy sum <Z_c, M_ci> = c_i exactly.
 
-    Rounded to ``decimals`` decimals in scaled units; then as many entries as there are equations are solved for in
-    rationals, chosen by a pivoted QR among the large ones. Slack conditions are left out: they absorb their variable.
+    Projected on the equations in floats, which keeps them definite; rounded to ``decimals`` decimals in scaled units;
+    then as many entries as there are equations are solved for in rationals, chosen by a pivoted QR among the large
+    ones. Slack conditions are left out: they absorb their variable.
     Raises NotProvenError if the equations cannot be met (balls among their coefficients, dependent equations).
     """
     problem = faced.problem
     slack = {name: unknowns for name, unknowns in slack_conditions(problem).items() if name not in faced.faces}
+    absorbed = set(problem.unknown_boxes).union(*slack.values()) if slack else set(problem.unknown_boxes)
+    equations = [i for i in range(problem.size) if i not in absorbed]
+    scaled = _projected(float_form(faced), {n: Z for n, Z in scaled.items() if n not in slack}, equations)
     exact: dict[str, np.ndarray] = {}
     for c in problem.named:
         if c.name in slack:
@@ -66,11 +74,33 @@ def rationalise(faced: Faced, scaled: Mapping[str, np.ndarray], decimals: int) -
         size = faced.forms[c.name].shape
         rounded = rational.rounded(scaled[c.name], decimals) if min(size) else rational.zeros(*size)
         exact[c.name] = rounded if c.is_equality else _unscaled(rounded, faced.row_units[c.name])
-    absorbed = set(problem.unknown_boxes).union(*slack.values()) if slack else set(problem.unknown_boxes)
-    equations = [i for i in range(problem.size) if i not in absorbed]
     if equations:
         _repair(faced, exact, equations)
     return Multipliers({name: faced.lifted(name, Y) for name, Y in exact.items()}, tuple(slack))
+
+
+def _projected(form: FloatForm, Z: dict[str, np.ndarray], equations: list[int]) -> dict[str, np.ndarray]:
+    """Float multipliers closer to the equations, moved by Z Y Z with Y in the span of the coefficients.
+
+    In this metric, that of interior-point methods, a step relative to Z is short, so definiteness survives.
+    """
+    if not equations:
+        return Z
+    names = [n for n, M in Z.items() if M.size]
+    F = {n: form.coefficients[n][:, equations].toarray().T.reshape(len(equations), *Z[n].shape) for n in names}
+    for _ in range(PROJECTIONS):
+        residual = form.costs[equations] - sum(np.einsum("kij,ij->k", F[n], Z[n]) for n in names)
+        moves = {n: F[n] if n in form.equalities else Z[n] @ F[n] @ Z[n] for n in names}
+        gram = sum(np.einsum("kij,lij->kl", F[n], moves[n], optimize=True) for n in names)
+        size = np.sqrt(np.maximum(np.diag(gram), 1e-300))
+        y = np.linalg.lstsq(gram / np.outer(size, size), residual / size, rcond=1e-14)[0] / size
+        step = {n: np.einsum("k,kij->ij", y, moves[n]) for n in names}
+        moved = {n: Z[n] + (d if n in form.equalities else (d + d.T) / 2) for n, d in step.items()}
+        left = form.costs[equations] - sum(np.einsum("kij,ij->k", F[n], moved[n]) for n in names)
+        if not np.linalg.norm(left) < np.linalg.norm(residual):
+            break
+        Z = {**Z, **moved}
+    return Z
 
 
 def _unscaled(Z: np.ndarray, row_units: list[fmpq]) -> np.ndarray:
@@ -111,16 +141,18 @@ def _places(problem: Problem, Z: Mapping[str, np.ndarray]) -> tuple[list[tuple[s
 def _equations(faced: Faced, places: list[tuple[str, int, int]], equations: list[int]) -> np.ndarray:
     """Exact matrix (equations, places) of sum_c <Z_c, M_ci> in the entries that may be changed."""
     A = rational.zeros(len(equations), len(places))
-    row_of = {i: r for r, i in enumerate(equations)}
-    for column, (name, i, j) in enumerate(places):
-        count = 1 if i == j or _is_equality(faced.problem, name) else 2
-        for k, M in faced.forms[name].terms.items():
-            if k not in row_of or (type(M[i, j]) is fmpq and M[i, j] == 0):
-                continue
-            if isinstance(M[i, j], arb):
-                unknown = faced.problem.unknowns[k]
-                raise NotProvenError(f"{faced.problem.name}: {unknown} has balls in {name}: give it a box or a slack")
-            A[row_of[k], column] = M[i, j] * count
+    column_of = {place: column for column, place in enumerate(places)}
+    for row, k in enumerate(equations):
+        for name, form in faced.forms.items():
+            for (i, j), x in form.coefficients.get(k, {}).items():
+                if (name, i, j) not in column_of:
+                    continue
+                if isinstance(x, arb):
+                    unknown = faced.problem.unknowns[k]
+                    raise NotProvenError(
+                        f"{faced.problem.name}: {unknown} has balls in {name}: give it a box or a slack"
+                    )
+                A[row, column_of[name, i, j]] = x * (1 if i == j or _is_equality(faced.problem, name) else 2)
     return A
 
 

@@ -10,7 +10,7 @@ import numpy as np
 from flint import fmpq
 
 from recontrol.exact import rational
-from recontrol.lmi.affine import AffineMatrix
+from recontrol.lmi.affine import AffineMatrix, Entries
 
 
 @dataclass(frozen=True)
@@ -61,10 +61,10 @@ class Variable:
 
     def affine(self, first: int) -> AffineMatrix:
         """The unknown as an affine matrix; its scalars are numbered from ``first``."""
-        terms: dict[int, np.ndarray] = {}
+        terms: dict[int, Entries] = {}
         for i, j, k, sign in self.entries:
-            terms.setdefault(first + k, rational.zeros(*self.matrix_shape))[i, j] = fmpq(sign)
-        return AffineMatrix(self.matrix_shape, terms)
+            terms.setdefault(first + k, {})[i, j] = fmpq(sign)
+        return AffineMatrix(self.matrix_shape, None, terms)
 
     def basis(self) -> Any:
         """Sparse (rows * columns, size) matrix with vec(V) = basis @ x, row-major."""
