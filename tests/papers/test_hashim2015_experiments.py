@@ -154,9 +154,7 @@ def test_margins_are_the_distance_to_instability(artifacts, axis):
     for name, row in artifacts["robustness"]["values"]["axes"][axis].items():
         loop = designs.loop_of(MODEL, SYNTHESIS, axis, name)
         assert row["peak_hamiltonian_difference"] < 1e-7
-        assert (
-            abs(row["peak_enclosure"] / row["peak_sensitivity"] - 1) < 2e-5
-        )  # the proof widens from 1e-6 until it holds
+        assert abs(row["peak_enclosure"] / row["peak_sensitivity"] - 1) < 2e-5  # proof width, from 1e-6 up
         for end, side in ((row["gain_lower"], 1), (row["gain_upper"], -1)):
             if end in (0.0, "infinite"):
                 continue
