@@ -39,8 +39,6 @@ def responses(steps: Any, axis: str, logarithmic_beyond: float | None = None) ->
     fig, axes = plotting.subplots(3, 1, height=128, sharex=True)
     curves: Curves = {}
     for ax, (entry, names) in zip(axes, PANELS.items(), strict=True):
-        if logarithmic_beyond is not None and entry != "S":
-            _far_scale(ax, logarithmic_beyond)
         for name in names:
             words, series = DESIGNS[name]
             t, y = as_curve(steps["series"][f"{axis}/t"], steps["series"][f"{axis}/{name}-{entry}"])
@@ -50,8 +48,8 @@ def responses(steps: Any, axis: str, logarithmic_beyond: float | None = None) ->
             settled = _settling(ax, t, y, found, series)
             if settled is not None:
                 curves[f"{entry}: {name}, settling"] = settled
-        if ax.get_yscale() == "symlog" and ax.dataLim.y0 > -1:
-            ax.set_ylim(bottom=-0.5)
+        if logarithmic_beyond is not None and entry != "S":
+            _far_scale(ax, logarithmic_beyond)
         plotting.label_axes(ax, y=("output $y$", "1"))
     plotting.letter_panels(axes, [TITLES[entry] for entry in PANELS])
     plotting.label_axes(axes[-1], x=("time", "s"))
@@ -76,12 +74,17 @@ def _settling(ax: Any, t: np.ndarray, y: np.ndarray, found: dict[str, Any], seri
 
 
 def _far_scale(ax: Any, limit: float) -> None:
-    """Linear within +-limit, logarithmic beyond."""
+    """Linear within +-limit, logarithmic beyond; a dotted line where the scale changes."""
+    lowest, highest = float(ax.dataLim.y0), float(ax.dataLim.y1)
     ax.set_yscale("symlog", linthresh=limit, linscale=1.8)
-    ax.set_yticks([-100, -10, -limit, 0, 1, 2, limit, 10, 50], ["−100", "−10", "−3", "0", "1", "2", "3", "10", "50"])
+    ticks = {-100: "−100", -10: "−10", -limit: "−3", 0: "0", 1: "1", 2: "2", limit: "3", 10: "10", 50: "50"}
+    shown = [level for level in ticks if lowest <= level <= max(highest, limit)]
+    ax.set_yticks(shown, [ticks[level] for level in shown])
     ax.minorticks_off()
-    for level in (-limit, limit):
+    for level in (-limit, limit) if lowest < -limit else (limit,):
         ax.axhline(level, color=plotting.GREY, linewidth=0.6, linestyle=(0, (1, 2)), zorder=1)
+    if lowest > -limit:
+        ax.set_ylim(bottom=min(-0.5, lowest))
 
 
 def _legend(fig: Any, axes: Any) -> None:
