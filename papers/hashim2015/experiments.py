@@ -54,6 +54,9 @@ def steps(values: Any) -> Table:
         for axis, words in pairs["counts"].items()
         for word, count in words.items()
     }
+    found["like_for_like_count"] = {
+        f"{axis}.{word}": row[word] for axis, row in values["like_for_like"].items() for word in ("faster", "slower")
+    }
     found["same_map_S"] = dict(values["same_map_S"])
     names = {"order 8": "order-8", "order 5": "order-5", "scipy": "library"}
     found["stepping_check"] = {

@@ -85,6 +85,14 @@ def test_no_like_for_like_pair_shows_the_pattern_in_the_two_percent_band(artifac
     assert not any(pairs[f"{full} | {reduced}"]["pattern"] for full, reduced in LIKE_FOR_LIKE)
 
 
+def test_only_the_statement_on_roll_survives_every_band(artifacts):
+    values = artifacts["steps"]["values"]
+    assert {axis for axis, row in values["like_for_like"].items() if row["robust"]} == {"roll"}
+    for band, name in (("1", "full-C | x1-C"), ("5", "full-C | corrected-C")):
+        shown = [p for p in values["pairs"][band]["pattern_pairs"] if tuple(p.split(" | ")) in LIKE_FOR_LIKE]
+        assert shown == [name]
+
+
 def test_exact_stepping_agrees_with_three_other_routes(artifacts):
     for routes in artifacts["steps"]["values"]["cross_check"].values():
         eighth, fifth, library = routes.values()

@@ -85,6 +85,24 @@ def compare_pairs(table: dict[str, dict[str, Any]]) -> dict[str, Any]:
     return outcomes
 
 
+def robust_outcomes(pairs: dict[str, Any]) -> dict[str, Any]:
+    """What the like-for-like pairs B and C say of each axis over all bands: one word, or which word how often.
+
+    S is left out: there both orders give the same response.
+    """
+    found: dict[str, Any] = {}
+    for axis in designs.AXES:
+        said = [
+            table["pairs"][f"{full} | {reduced}"][axis]
+            for table in pairs.values()
+            for full, reduced in LIKE_FOR_LIKE
+            if full != "full-S"
+        ]
+        counts = {word: said.count(word) for word in ("faster", "slower", "equal")}
+        found[axis] = {"robust": max(counts.values()) == len(said), **counts}
+    return found
+
+
 def same_from_reference(model: dict[str, Any], synthesis: dict[str, Any], axis: str) -> float:
     """Largest relative difference of the two S maps to C (sI - A + BK)^-1 B over 200 frequencies 10^-2..10^1.5."""
     plant = designs.plant_of(model, axis)
@@ -119,9 +137,11 @@ def steps(model: dict[str, Any], synthesis: dict[str, Any]) -> tuple[dict[str, A
     """Artifact described at the head of this module."""
     found = {axis: designs.systems(model, synthesis, axis) for axis in designs.AXES}
     table = {axis: {name: metrics(s) for name, s in systems.items()} for axis, systems in found.items()}
+    pairs = compare_pairs(table)
     values = {
         "metrics": table,
-        "pairs": compare_pairs(table),
+        "pairs": pairs,
+        "like_for_like": robust_outcomes(pairs),
         "same_map_S": {axis: same_from_reference(model, synthesis, axis) for axis in designs.AXES},
         "cross_check": {axis: cross_check(found[axis]["full-C"]) for axis in designs.AXES},
     }
