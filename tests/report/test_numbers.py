@@ -55,6 +55,9 @@ def test_decode_keeps_complex_parts_and_radii() -> None:
     cell = numbers.decode({"complex": {"re": [1.0], "im": [-2.0]}})[0][0]
     assert (cell.re, cell.im) == (1, -2)
     assert numbers.decode({"value": 2.0, "error": 0.25})[0][0].radius == Fraction(1, 4)
+    ball = {"re": {"ball": {"mid": "-1/2", "rad": "1/8"}}, "im": {"ball": {"mid": "3/4", "rad": "1/8"}}}
+    pole = numbers.decode([ball])[0][0]
+    assert (pole.re, pole.im, pole.radius) == (Fraction(-1, 2), Fraction(3, 4), Fraction(1, 8))
 
 
 @pytest.mark.parametrize(

@@ -114,7 +114,8 @@ def _zip_cells(mid: Any, radius: Any = None, imaginary: Any = None) -> list[list
                 inner = decode(value)
                 if inner is None or len(inner) != 1 or len(inner[0]) != 1:
                     return None
-                rows[-1].append(inner[0][0])
+                cell = inner[0][0]
+                rows[-1].append(cell if parts[2] is None else Cell(cell.re, parts[2], cell.radius))
                 continue
             if parts[0] is None:
                 return None
