@@ -23,7 +23,7 @@ def s3_reason(synthesis: Any) -> Result:
         kept = abs(corrected["L"][0, 0]) / abs(x1["L"][0, 0])
         margins = {
             "compensator pole, y measured": corrected["A"][0, 0],
-            "gain kept": kept * 2 - 1,
+            "twice the part of L_r that is kept, less 1": kept * 2 - 1,
         }
     evidence = {
         "compensator pole, x1 measured": x1["A"][0, 0],
