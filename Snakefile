@@ -31,6 +31,7 @@ wildcard_constraints:
 
 include: "rules/chain.smk"
 include: "rules/report.smk"
+include: "rules/artifacts.smk"
 
 
 # Everything of every paper, the report and the review.
@@ -38,7 +39,13 @@ rule all:
     default_target: True
     input:
         [graph.everything(key) for key in graph.papers],
-        "results/report/index.html",
+        [graph.exports(key) for key in graph.papers],
+        [
+            "results/report/index.html",
+            "results/index.json",
+            "results/crate/ro-crate-metadata.json",
+        ],
+        rules.latex.output,
 
 
 onerror:

@@ -136,7 +136,7 @@ def test_two_clean_runs_give_identical_bytes(fresh_toy, built_toy):
     project = fresh_toy("second")
     project.snakemake("all")
     assert project.artifacts() == built_toy.artifacts()
-    kinds = {name.rsplit(".", 1)[1] for name in built_toy.artifacts()}
+    kinds = {name.rsplit(".", 1)[-1] for name in built_toy.artifacts()}
     assert {"json", "csv", "npz", "png", "svg", "pdf", "html"} <= kinds
 
 

@@ -50,6 +50,24 @@ class Graph:
             found += [f"papers/{key}/{name}" for name in ("paper.yaml", "claims.yaml", "NOTES.md")]
         return found
 
+    def numbers(self, key: str) -> list[str]:
+        """Models, gains and time series of a paper."""
+        return [name for stage in ("model", "synthesis", "simulation") for name in self.stage(key, stage)]
+
+    def exports(self, key: str) -> list[str]:
+        """What a paper exports for other tools."""
+        names = ("model.mat", "model.plain.json", "synthesis.mat", "synthesis.plain.json", "series.zip")
+        return [f"results/{key}/{name}" for name in names]
+
+    def cited(self) -> list[str]:
+        """Everything of all papers that has an identity, and where its titles and units stand."""
+        found = []
+        for key in self.papers:
+            found += [str(artifact(key, name)) for name in ("verdicts", "quantities")]
+            found += self.numbers(key) + self.stage(key, "certificates") + self.figures(key)
+            found += [f"papers/{key}/{name}" for name in ("paper.yaml", "claims.yaml", "NOTES.md")]
+        return found
+
     @staticmethod
     def code(stage: str) -> Callable[[Any], list[str]]:
         """Input function: every file that a stage and all earlier ones of the wildcard's paper may import."""

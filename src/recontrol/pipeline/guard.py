@@ -16,6 +16,8 @@ from recontrol.pipeline import store
 
 LOCK = Path("run/lock")
 SOURCES = ("Snakefile", "environment.lock", "config", "rules", "papers", "src")
+WHOLE = {"results/report": "index.html", "results/crate": "ro-crate-metadata.json"}
+"""Folders made as a whole by a rule that declares one file: if any file of one is wrong, all of it is made again."""
 LOOKING = re.compile(
     r"-[a-zA-Z]*n[a-zA-Z]*|--(dry-?run|lint|report|dag|rulegraph|filegraph|d3dag|list.*|summary|detailed-summary|"
     r"unlock|delete-all-output|delete-temp-output|help|version|generate-unit-tests|print-compilation|containerize|"
@@ -42,10 +44,12 @@ def enter(arguments: list[str] | None = None) -> None:
         print(f"recontrol: {path} carries a time in the future (a clock was off); taken as of now", file=sys.stderr)
         if not look:
             os.utime(path)
-    for path, reason in store.untrusted():
+    wrong = store.untrusted()
+    wrong += [(path, "stands in a folder where a file is wrong or missing") for path in _spoiled(wrong)]
+    for path, reason in wrong:
         if look:
             print(f"recontrol: {path} {reason}; a run will rebuild it", file=sys.stderr)
-        else:
+        elif path.exists():
             print(f"recontrol: {path} {reason}; moved to {store.set_aside(path)}, will be rebuilt", file=sys.stderr)
 
 
@@ -54,6 +58,23 @@ def _dated_in_the_future() -> list[Path]:
     limit = time.time() + store.CLOCK_SLACK
     paths = [path for top in SOURCES for path in ([Path(top)] if Path(top).is_file() else Path(top).rglob("*"))]
     return sorted(path for path in paths if path.is_file() and path.stat().st_mtime > limit)
+
+
+def _spoiled(wrong: list[tuple[Path, str]]) -> list[Path]:
+    """Declared files of folders in which some other file is wrong or missing."""
+    found = []
+    for name, file in WHOLE.items():
+        folder, known = Path(name), {path for path, _ in wrong}
+        inside = any(path.is_relative_to(folder) for path in known)
+        if (folder / file).exists() and folder / file not in known and (inside or _missing(folder)):
+            found.append(folder / file)
+    return found
+
+
+def _missing(folder: Path) -> list[Path]:
+    """Recorded files of a folder that do not exist."""
+    records = (store.RECORDS / folder).rglob("*.json")
+    return [file for record in records if not (file := record.relative_to(store.RECORDS).with_suffix("")).exists()]
 
 
 def _lock() -> None:

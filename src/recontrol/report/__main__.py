@@ -18,6 +18,7 @@ def build(papers: list[str]) -> None:
     from recontrol import report
     from recontrol.pipeline import publish
 
+    _forget(Path("results/report"))
     report.build(ROOT, papers)
     publish.run("report", [Path("results/report")])
 
@@ -50,6 +51,7 @@ def crate(papers: list[str]) -> None:
     from recontrol.pipeline import publish
     from recontrol.report import crate as crates
 
+    _forget(Path("results/crate"))
     crates.build(ROOT, papers, Path("results/crate"))
     publish.run("crate", [Path("results/crate")])
 
@@ -69,6 +71,14 @@ def bundle(papers: list[str]) -> None:
     from recontrol.report import bundle as bundles
 
     print(bundles.build(ROOT))
+
+
+def _forget(folder: Path) -> None:
+    """Drop the records of a folder that is made anew as a whole, so that none outlives its file."""
+    from recontrol.pipeline import store
+
+    for record in (store.RECORDS / folder).rglob("*.json"):
+        record.unlink()
 
 
 def _publish(stage: str, contents: Mapping[str, bytes], paper: str | None = None) -> None:

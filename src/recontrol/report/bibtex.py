@@ -13,11 +13,14 @@ from recontrol.report.tex import escape, markdown
 
 
 def version() -> str:
-    """Return the version of this project: its pyproject.toml where the sources lie, else the installed one."""
+    """Return the version of this project: that of pyproject.toml beside the sources, else the installed one."""
     project = Path(__file__).parents[3] / "pyproject.toml"
     if project.is_file():
         return str(tomllib.loads(project.read_text(encoding="utf-8"))["project"]["version"])
-    return metadata.version("recontrol")
+    try:
+        return metadata.version("recontrol")
+    except metadata.PackageNotFoundError:
+        return "unknown"
 
 
 def entry(kind: str, key: str, fields: dict[str, str]) -> str:
