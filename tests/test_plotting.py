@@ -96,9 +96,20 @@ def test_legend_names_each_curve_once():
     assert [t.get_text() for t in legend.get_texts()] == ["curve 0", "curve 1", "curve 2", "2 % band"]
 
 
-def test_drift_picture_shows_curves_of_either_side():
+def test_drift_picture_shows_what_differs_worst_first():
     x = np.linspace(0, 1, 5)
-    fig = plotting.drift_picture({"y": (x, x), "gone": (x, x)}, {"y": (x[::-1], x[::-1] + 1), "new": (x, x)}, "drift")
+    reference = {"same": (x, x), "little": (x, x), "much": (x, x), "gone": (x, x)}
+    found = {"same": (x, x), "little": (x, x + 0.01), "much": (x, x + 1), "new": (x, x)}
+    fig = plotting.drift_picture(reference, found, "drift")
     titles = [ax.get_title("left") for ax in fig.axes]
-    assert titles == ["y", "found minus reference", "gone", "only on one side", "new", "only on one side"]
-    np.testing.assert_allclose(fig.axes[1].lines[0].get_ydata(), 1.0, rtol=0, atol=1e-15)
+    assert sorted(titles[:4:2]) == ["gone", "new"]
+    assert titles[4::2] == ["much", "little"]
+    assert fig.get_suptitle() == "drift: 4 of 5 curves differ"
+    np.testing.assert_allclose(fig.axes[5].lines[0].get_ydata(), 1.0, rtol=0, atol=1e-15)
+
+
+def test_drift_of_unordered_points_is_the_distance_to_the_nearest():
+    points = (np.array([0.0, 2.0, 1.0]), np.array([0.0, 1.0, 1.0]))
+    moved = (np.array([1.0, 0.0, 2.0]), np.array([1.0, 0.0, 0.5]))  # another order, one point lower by half the range
+    fig = plotting.drift_picture({"p": points}, {"p": moved}, "drift")
+    np.testing.assert_allclose(fig.axes[1].lines[0].get_ydata(), [0.0, 0.5, 0.0], atol=1e-15)

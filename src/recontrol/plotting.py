@@ -236,30 +236,64 @@ def save(fig: Any, stem: str | Path, formats: Sequence[str] = ("svg", "pdf", "pn
     return paths
 
 
+def extent(values: Any) -> float:
+    """Range of the values; their largest magnitude if they are all but equal (a single point, a constant)."""
+    array = np.asarray(values, dtype=float)
+    spread, size = float(np.ptp(array)), float(np.max(np.abs(array)))
+    return max(spread if spread > 1e-9 * size else size, 1e-300)
+
+
 def drift_picture(reference: Mapping[str, Any], found: Mapping[str, Any], title: str) -> Any:
-    """Both versions of a figure's curves and their difference, for a regression that failed.
+    """Both versions of the curves of a figure that differ, worst first, and their difference.
 
     Parameters
     ----------
     reference, found : mapping label -> (x, y), arrays of equal length
-        Curves are matched by label; a curve that only one side has is drawn and named as such.
-        The difference is taken on the x of the reference (linear interpolation).
+        Curves are matched by label; a curve that only one side has comes first and is named as such.
+    title : what stands above the picture
+
+    Notes
+    -----
+    The difference of a curve is taken on the x of the reference; for points in no order of x, it is the distance of
+    each reference point to the nearest one found.
     """
-    labels = list(dict.fromkeys([*reference, *found]))
-    fig, axes = subplots(len(labels), 2, width=PAGE, height=18 + 32 * len(labels), squeeze=False)
-    fig.suptitle(title)
-    for (curves, difference), label in zip(axes, labels, strict=True):
+    drifts = {label: _drift(reference.get(label), found.get(label)) for label in {**reference, **found}}
+    worst = sorted(drifts, key=lambda label: -drifts[label].size)
+    shown = [label for label in worst if drifts[label].size > 1e-9][:ROWS] or worst[:1]
+    fig, axes = subplots(len(shown), 2, width=PAGE, height=18 + 36 * len(shown), squeeze=False)
+    fig.suptitle(f"{title}: {sum(d.size > 1e-9 for d in drifts.values())} of {len(drifts)} curves differ")
+    for (curves, difference), label in zip(axes, shown, strict=True):
         for k, (name, side) in enumerate((("reference", reference), ("found", found))):
             if label in side:
-                curves.plot(*side[label], label=name, **SERIES[k].line)
+                dense = np.size(side[label][0]) > 2
+                curves.plot(*side[label], label=name, **(SERIES[k].line if dense else SERIES[k].points))
         curves.set_title(label)
         curves.legend()
-        if label in reference and label in found:
-            x, y = (np.asarray(v, dtype=float) for v in reference[label])
-            order = np.argsort(found[label][0], kind="stable")
-            x_new, y_new = (np.asarray(v, dtype=float)[order] for v in found[label])
-            difference.plot(x, np.interp(x, x_new, y_new) - y, color=BLACK)
-            difference.set_title("found minus reference")
-        else:
-            difference.set_title("only on one side")
+        drift = drifts[label]
+        difference.plot(drift.x, drift.y, color=BLACK, marker="." if drift.x.size < 3 else "none")
+        difference.set_title(drift.words)
     return fig
+
+
+ROWS = 8  # of a drift picture
+
+
+class _Drift(NamedTuple):
+    """Difference of one curve over x, its size over the range of the reference, and what the panel shows."""
+
+    x: Any
+    y: Any
+    size: float
+    words: str
+
+
+def _drift(reference: Any, found: Any) -> _Drift:
+    if reference is None or found is None:
+        return _Drift(np.array([]), np.array([]), np.inf, "only on one side")
+    (x, y), (x_new, y_new) = (np.asarray(side, dtype=float) for side in (reference, found))
+    scale_x, scale_y = extent(x), extent(y)
+    if np.all(np.diff(x) > 0) and np.all(np.diff(x_new) > 0) and x.size > 1:
+        gap = np.interp(x, x_new, y_new) - y
+        return _Drift(x, gap, float(np.max(np.abs(gap))) / scale_y, "found minus reference")
+    apart = np.hypot((x[:, None] - x_new) / scale_x, (y[:, None] - y_new) / scale_y).min(axis=1)
+    return _Drift(np.arange(x.size), apart, float(apart.max()), "distance to the nearest point, over the range")

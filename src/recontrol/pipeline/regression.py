@@ -10,6 +10,7 @@ from pathlib import Path
 import numpy as np
 
 from recontrol.errors import PaperError
+from recontrol.plotting import extent
 
 POINTS = 160
 """A reference keeps at most about this many points of each curve."""
@@ -75,7 +76,7 @@ def compare(found: Curves, reference: Curves, tolerance: float) -> list[Drift]:
 
 
 def _distance(x: np.ndarray, y: np.ndarray, x_ref: np.ndarray, y_ref: np.ndarray) -> float:
-    scale_x, scale_y = (max(np.ptp(axis), 1e-9 * np.max(np.abs(axis)), 1e-300) for axis in (x_ref, y_ref))
+    scale_x, scale_y = extent(x_ref), extent(y_ref)
     points = np.stack([x_ref / scale_x, y_ref / scale_y], axis=1)
     line = np.stack([x / scale_x, y / scale_y], axis=1)
     if len(line) == 1:
