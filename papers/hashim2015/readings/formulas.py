@@ -22,25 +22,32 @@ def state(s: SimpleNamespace, x: np.ndarray, u: np.ndarray) -> np.ndarray:
     return s.A @ x + s.B @ u
 
 
+def estimator_form(
+    A: np.ndarray, known: np.ndarray, y: np.ndarray, C: np.ndarray, L: np.ndarray, xh: np.ndarray
+) -> np.ndarray:
+    """A xh + (known input) + L (y - C xh), the form of (22) into which (32) to (36) substitute."""
+    return A @ xh + known + L @ (y - C @ xh)
+
+
 def estimator(s: SimpleNamespace, y: np.ndarray, u: np.ndarray) -> np.ndarray:
     """(22) with the input matrix B."""
-    return s.A @ s.xh + s.B @ u + s.L @ (y - s.C @ s.xh)
+    return estimator_form(s.A, s.B @ u, y, s.C, s.L, s.xh)
 
 
 def reduced_state(s: SimpleNamespace, x2: np.ndarray, y: np.ndarray, u: np.ndarray) -> np.ndarray:
-    """(29)."""
-    return s.A22 @ x2 + s.A21 @ y + s.B2 @ u
+    """Rate of x2 by (4) where x1 = y."""
+    return state(s, stack(y, x2), u)[1:]
 
 
 def output_rate(s: SimpleNamespace, x2: np.ndarray, y: np.ndarray, u: np.ndarray) -> np.ndarray:
-    """(30)."""
-    return s.A11 @ y + s.A12 @ x2 + s.B1 @ u
+    """Rate of y by (4) where x1 = y."""
+    return state(s, stack(y, x2), u)[:1]
 
 
 def reduced_estimator(s: SimpleNamespace, dy: np.ndarray) -> np.ndarray:
-    """(37) with the correct sign of B1 u."""
-    innovation = dy - s.A11 @ s.y - s.B1 @ s.u - s.A12 @ s.xh2
-    return reduced_state(s, s.xh2, s.y, s.u) + s.L_r @ innovation
+    """The form of (22) with (32) to (36), correct: x2, A22, A21 y + B2 u, y' - A11 y - B1 u, A12."""
+    known, measured = s.A21 @ s.y + s.B2 @ s.u, dy - s.A11 @ s.y - s.B1 @ s.u
+    return estimator_form(s.A22, known, measured, s.A12, s.L_r, s.xh2)
 
 
 def control(s: SimpleNamespace, xh2: np.ndarray) -> np.ndarray:
@@ -112,13 +119,13 @@ def eq27() -> Identity:
 def eq29() -> Identity:
     """Lower rows of (4)."""
     s = symbols(ORDER)
-    return Identity(reduced_state(s, s.x[1:], s.x[:1], s.u), state(s, s.x, s.u)[1:])
+    return Identity(s.A22 @ s.x[1:] + s.A21 @ s.x[:1] + s.B2 @ s.u, state(s, s.x, s.u)[1:])
 
 
 def eq30() -> Identity:
     """First row of (4) where y = x1."""
     s = symbols(ORDER)
-    return Identity(output_rate(s, s.x[1:], s.x[:1], s.u), state(s, s.x, s.u)[:1])
+    return Identity(s.A11 @ s.x[:1] + s.A12 @ s.x[1:] + s.B1 @ s.u, state(s, s.x, s.u)[:1])
 
 
 def eq31() -> Identity:
