@@ -102,7 +102,7 @@ STYLE: dict[Any, Any] = {
     "axes.formatter.use_mathtext": False,  # parsing each tick label as a formula doubles the time of a figure
     "axes.formatter.limits": (-3, 4),
     "axes.unicode_minus": True,
-    "path.simplify": False,  # the file shows the data, not a thinned copy of it
+    "path.simplify": True,  # to a ninth of a pixel: a third of the size and same picture; the data are in the CSV
     "figure.dpi": 100,
     "savefig.dpi": 300,
     "figure.facecolor": "white",
