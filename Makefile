@@ -6,7 +6,7 @@ BIN = $(VENV)/bin
 LOCK_DATE ?=
 
 .DEFAULT_GOAL := help
-.PHONY: help reproduce test check lint unit build environment test-environment lock schemas clean distclean
+.PHONY: help reproduce test check lint unit build environment test-environment lock schemas book bundle clean distclean
 
 help: ## this list
 	@grep -hE '^[a-z-]+:.*## ' $(MAKEFILE_LIST) | sed 's/:.*## /\t/' | expand -t 18
@@ -35,6 +35,12 @@ unit: test-environment ## the tests alone
 
 schemas: test-environment ## JSON Schemas of paper.yaml and claims.yaml for editors
 	@$(VENV)-test/bin/python tools/schemas.py
+
+book: reproduce ## VERDICTS.md, docs/errata and the counts of the README, from a finished run
+	@PYTHONPATH=src $(BIN)/python -m recontrol.report book
+
+bundle: reproduce ## what one would deposit in an archive: run/bundle/, with a manifest of digests
+	@PYTHONPATH=src $(BIN)/python -m recontrol.report bundle
 
 lock: ## resolve pyproject.toml into the two lock files (needs uv; LOCK_DATE=2026-11-01 repeats a resolution)
 	uv pip compile --universal --python-version 3.11 --generate-hashes --no-header \

@@ -25,6 +25,9 @@ except RecontrolError as error:
 configfile: "config/config.yaml"
 
 
+report: "rules/captions/workflow.rst"
+
+
 wildcard_constraints:
     paper="|".join(graph.papers) or "none",
 

@@ -88,11 +88,20 @@ rule figure:
         code=graph.code("figure"),
         paper="papers/{paper}/paper.yaml",
     output:
-        multiext("figures/{paper}/{figure}", ".svg", ".pdf", ".png", ".csv"),
+        report(
+            "figures/{paper}/{figure}.svg",
+            caption="captions/figure.rst",
+            category="{paper}",
+            labels={"figure": "{figure}"},
+        ),
+        multiext("figures/{paper}/{figure}", ".pdf", ".png", ".csv"),
     log:
         "run/log/{paper}/figures/{figure}.log",
     benchmark:
         "run/benchmark/{paper}/figures/{figure}.tsv"
+    params:
+        title=lambda wildcards: graph.figure(wildcards).title,
+        caption=lambda wildcards: graph.figure(wildcards).caption,
     message:
         "{wildcards.paper}: figure {wildcards.figure}"
     shell:
@@ -107,7 +116,12 @@ rule verdicts:
         code=graph.code("verdicts"),
         folder=multiext("papers/{paper}/", "paper.yaml", "claims.yaml", "NOTES.md"),
     output:
-        "results/{paper}/verdicts.json",
+        report(
+            "results/{paper}/verdicts.json",
+            caption="captions/verdicts.rst",
+            category="{paper}",
+            labels={"figure": "verdicts"},
+        ),
     log:
         "run/log/{paper}/verdicts.log",
     benchmark:

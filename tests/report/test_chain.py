@@ -43,6 +43,15 @@ def test_a_page_or_crate_file_that_is_edited_or_deleted_comes_back(toy, name: st
     assert "Nothing to be done" in toy.snakemake("all").stdout
 
 
+def test_the_report_of_snakemake_carries_figures_with_captions(built_toy, tmp_path: Path) -> None:
+    page = tmp_path / "audit.html"
+    built_toy.snakemake("--report", str(page))
+    text = page.read_text(encoding="utf-8")
+    assert "State over time." in text
+    assert "decay.svg" in text
+    assert "results/report/index.html" in text
+
+
 def test_the_book_of_a_run_can_be_made(toy) -> None:
     command = [sys.executable, "-m", "recontrol.report", "book"]
     environment = {"PYTHONPATH": str(toy.folder / "src"), "PATH": ""}

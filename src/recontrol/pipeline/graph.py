@@ -35,6 +35,10 @@ class Graph:
         names = self.papers[key].file.figures
         return [str(figure_file(key, name, kind)) for name in names for kind in FIGURE_FORMATS]
 
+    def figure(self, wildcards: Any) -> Any:
+        """Title and caption of the wildcards' figure."""
+        return self.papers[wildcards.paper].file.figures[wildcards.figure]
+
     def everything(self, key: str) -> list[str]:
         """All artifacts of a paper, of every stage: deleting any of them makes the plain command rebuild it."""
         found = [str(artifact(key, name)) for name in ("model", "verdicts", "quantities", "review")]

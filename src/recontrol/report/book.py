@@ -14,7 +14,8 @@ from recontrol.report import cite, numbers, present, words
 from recontrol.report.collect import Claim, Paper
 
 DIGITS = 4
-"""Significant digits of a found number that has no print to be rounded like."""
+"""Significant digits of a margin. Margins are given only where they refute a print beyond rounding errors: others may
+depend on the point that a solver happened to return."""
 
 STRENGTHS = {
     "exact": "exact rational arithmetic",
@@ -114,8 +115,11 @@ def found(claim: Claim) -> str:
     compared = present.compared(claim, finding)
     if 0 < len(compared) <= 4:
         return ", ".join(numbers.write_like(cell, text) for cell, text in compared)
-    text = present.found_text(claim, finding)
-    return numbers.rounded_text(text, DIGITS) if claim.strength == "float" else text
+    text = numbers.rounded_text(present.found_text(claim, finding), DIGITS)
+    margin = re.search(r" = \S*\d", text) is not None
+    if margin and (claim.verdict != "erratum" or claim.strength == "float"):
+        return {"yes": "holds", "no": "does not hold"}.get(finding.agrees, finding.agrees)
+    return text
 
 
 def errata(paper: Paper) -> str:
