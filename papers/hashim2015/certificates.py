@@ -61,7 +61,7 @@ def box_x1(data: Any) -> dict[str, Any]:
     )
 
 
-def _all_axes(loop_of_axis: Mapping[str, np.ndarray], name: str, says: str) -> dict[str, Any]:
+def _all_axes(loop_of_axis: Mapping[str, np.ndarray], case: str, says: str) -> dict[str, Any]:
     """One Lyapunov matrix per axis in one certificate."""
     import scipy.linalg
 
@@ -73,33 +73,37 @@ def _all_axes(loop_of_axis: Mapping[str, np.ndarray], name: str, says: str) -> d
         chosen.append(condition(loops.definite, f"{axis}: P > 0", rename=rename))
         chosen.append(condition(loops.hurwitz, f"{axis}: decay", rename=rename))
         point[f"P {axis}"] = scipy.linalg.solve_continuous_lyapunov(midpoint(M).T, -np.eye(n))
-    return prove_feasible(Problem(name, variables, chosen, data, paper=PAPER), point, says=says)
+    return prove_feasible(
+        Problem("loops of the axes", variables, chosen, data, paper=PAPER, case=case, source=SOURCE), point, says=says
+    )
 
 
 def loops_full(model: Any, synthesis: Any) -> dict[str, Any]:
     """The full-order loop of every axis, recomputed gains in balls."""
     with precision(BITS):
         found = {axis: analysis.axis_full_loop(model, synthesis, axis) for axis in AXES}
-        return _all_axes(found, "full-order loops", "the full-order loop of every axis is stable")
+        return _all_axes(found, sources.FULL_LOOPS, "the full-order loop of every axis is stable")
 
 
 def loops_corrected(model: Any, synthesis: Any) -> dict[str, Any]:
     """The corrected reduced loop of every axis, y measured, recomputed gains in balls."""
     with precision(BITS):
         found = {axis: analysis.corrected_loop(model, synthesis, axis) for axis in AXES}
-        return _all_axes(found, "corrected reduced loops", "the corrected reduced loop of every axis is stable")
+        return _all_axes(found, sources.CORRECTED_LOOPS, "the corrected reduced loop of every axis is stable")
 
 
-def ace_stable(data: Any, model: Any) -> dict[str, Any]:
+def ace_stable(data: Any) -> dict[str, Any]:
     """A member of the rounding box of (55), lower right block with the printed 0 at (6,5), whose loop is stable."""
-    M = analysis.deciding_members(model, data)["stable member"]
-    return loops.prove_stable(M, name="loop of a member of (55)", paper=PAPER, case="ace-print")
+    case = sources.STABLE_MEMBER
+    M = sources.problem_data(data, case)["M"]
+    return loops.prove_stable(M, name="loop of a member of (55)", paper=PAPER, case=case, source=SOURCE)
 
 
-def ace_unstable(data: Any, model: Any) -> dict[str, Any]:
+def ace_unstable(data: Any) -> dict[str, Any]:
     """Another member of the same box whose loop is unstable: the print does not decide."""
-    M = analysis.deciding_members(model, data)["unstable member"]
-    return loops.prove_unstable(M, name="loop of a member of (55)", paper=PAPER, case="ace-print")
+    case = sources.UNSTABLE_MEMBER
+    M = sources.problem_data(data, case)["M"]
+    return loops.prove_unstable(M, name="loop of a member of (55)", paper=PAPER, case=case, source=SOURCE)
 
 
 def _lower(model: Any, synthesis: Any, axis: str) -> dict[str, Any]:

@@ -10,17 +10,22 @@ from recontrol.exact.ball import to_ball
 from recontrol.exact.rational import identity, zeros
 from recontrol.lmi import loops
 
-from . import recipe
-from .model import plants
+from . import analysis, recipe
+from .model import AXES, model, plants
 from .readings.support import first_state, printed_reduced, reduced_loop
+from .synthesis.gains import gains
 
 CONTROLLER_BOX = "box of (52)"
 FULL_BOX = "boxes of (52) and (54)"
 REDUCED_BOX = "box of (66)-(69), x1 measured"
+FULL_LOOPS = "full-order loops, recomputed gains"
+CORRECTED_LOOPS = "corrected reduced loops, recomputed gains"
+STABLE_MEMBER = "ace-print, stable member"
+UNSTABLE_MEMBER = "ace-print, unstable member"
 
 
 def problem_data(data: Any, case: str) -> dict[str, np.ndarray]:
-    """Exact data by name; ``case`` is an axis or one of the boxes above, anything else has none."""
+    """Exact data by name; ``case`` is an axis or one of the names above, anything else has none."""
     found = plants(data)
     yaw = recipe.Plant(**found["yaw"])
     if case == CONTROLLER_BOX:
@@ -30,6 +35,10 @@ def problem_data(data: Any, case: str) -> dict[str, np.ndarray]:
         return {"M": np.block([[yaw.A - yaw.B @ K, yaw.B @ K], [zeros(yaw.n), yaw.A - L @ yaw.C]])}
     if case == REDUCED_BOX:
         return _reduced_box(yaw, data)
+    if case in (FULL_LOOPS, CORRECTED_LOOPS):
+        return _loops_of_axes(data, case)
+    if case in (STABLE_MEMBER, UNSTABLE_MEMBER):
+        return {"M": analysis.deciding_members(model(data), data)[case.removeprefix("ace-print, ")]}
     plant = found.get(case)
     if plant is None:
         return {}
@@ -48,3 +57,11 @@ def _reduced_box(plant: recipe.Plant, data: Any) -> dict[str, np.ndarray]:
     M, moved = (reduced_loop(plant, first_state(plant.n), **found) for found in (centre, shifted))
     E, F = loops.entry_box(moved - M)
     return {"M": M, "E": E, "F": F}
+
+
+def _loops_of_axes(data: Any, case: str) -> dict[str, np.ndarray]:
+    """``M <axis>`` with gains made again from the recipe, in balls."""
+    found = model(data)
+    synthesis = {"gains": gains(found, data)}
+    loop = analysis.axis_full_loop if case == FULL_LOOPS else analysis.corrected_loop
+    return {f"M {axis}": loop(found, synthesis, axis) for axis in AXES}

@@ -178,7 +178,7 @@ def test_members_of_55_have_opposite_verdicts_within_half_a_unit():
         assert all(x == 0 for x, b in zip(moved.ravel(), block.ravel(), strict=True) if b == 0)
 
 
-@pytest.mark.parametrize("name", ["inverse_lqr", "loop_full", "box_x1"])
+@pytest.mark.parametrize("name", ["inverse_lqr", "loop_full", "box_x1", "ace_stable", "ace_unstable"])
 def test_certificates_of_the_print_verify_and_rebuild(name):
     certificate = getattr(certificates, name)(DATA)
     found = verify.check(certificate)
