@@ -65,7 +65,9 @@ def test_last_bits_change_the_digest_and_not_the_canonical_one() -> None:
     assert artifacts.digest(a) != artifacts.digest(b)
     assert artifacts.digest(artifacts.canonical(a)) == artifacts.digest(artifacts.canonical(b))
     assert artifacts.canonical({"K": 0.3001}) != artifacts.canonical({"K": 0.3})
-    assert artifacts.canonical("(55), 2013, 1/3") == "(55), 2013, 1/3"
+    for text in ("(55), 2013, 1/3", "sha256:4e99999e3456", "1.2.3", "0.15.0e5f"):
+        assert artifacts.canonical(text) == text
+    assert artifacts.canonical("-0.4675123456+1.0786123456i.") == "-0.467512+1.07861i."
 
 
 def test_inputs_and_stage_come_from_the_record_of_the_artifact(tmp_path: Path) -> None:

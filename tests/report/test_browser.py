@@ -64,6 +64,18 @@ def test_filter_works_without_script(browser: Any, tree: Path) -> None:
     assert not page.locator("#eq6-tf").is_visible()
 
 
+def test_first_click_shows_one_verdict_alone_and_the_last_shows_all(browser: Any, tree: Path) -> None:
+    page = show(browser, tree, f"{fake.KEY}.html")
+    page.locator("label:has(#v-erratum)").click()
+    assert page.locator("#eq55-11").is_visible()
+    assert not page.locator("#eq6-tf").is_visible()
+    page.locator("label:has(#v-reproduced)").click()
+    assert page.locator("#eq6-tf").is_visible()
+    page.locator("label:has(#v-reproduced)").click()
+    page.locator("label:has(#v-erratum)").click()
+    assert page.locator("#s3-pattern").is_visible()
+
+
 def test_search_counts_and_a_link_brings_a_hidden_claim_back(browser: Any, tree: Path) -> None:
     page = show(browser, tree, f"{fake.KEY}.html")
     page.fill("#q", "(55)")

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import hashlib
 import json
-import re
 from collections.abc import Iterator
 from fractions import Fraction
 from pathlib import Path
@@ -18,7 +17,7 @@ SCHEMA = "recontrol/index/1"
 DIGITS = 6
 """Significant digits that a canonical digest keeps, so that it survives another processor."""
 
-TINY = 1e-12
+TINY = Fraction(1, 10**12)
 DEPTH = 4
 CLAIM_KEYS = ("id", "where", "printed", "unit", "verdict", "strength", "reading", "found", "explained_by", "origin")
 Entry = dict[str, Any]
@@ -157,14 +156,8 @@ def canonical(value: Any) -> Any:
     if isinstance(value, list):
         return [canonical(item) for item in value]
     if isinstance(value, float):
-        return _rounded(value)
-    if isinstance(value, str):
-        return re.sub(r"[+-]?\d+(?:\.\d+(?:[eE][+-]?\d+)?|[eE][+-]?\d+)", lambda m: _rounded(float(m[0])), value)
-    return value
-
-
-def _rounded(value: float) -> str:
-    return "0" if abs(value) < TINY else numbers.significant(Fraction(repr(value)), DIGITS)
+        return numbers.rounded(Fraction(repr(value)), DIGITS, TINY)
+    return numbers.rounded_text(value, DIGITS, TINY) if isinstance(value, str) else value
 
 
 def _series_digest(path: Path) -> str:
@@ -184,7 +177,8 @@ def _series_digest(path: Path) -> str:
 def _rounded_bytes(array: Any) -> bytes:
     import numpy as np
 
-    size = np.where(np.abs(array) < TINY, 1.0, np.abs(array))
+    small = np.abs(array) < float(TINY)
+    size = np.where(small, 1.0, np.abs(array))
     exponent = np.floor(np.log10(size)).astype(int)
-    mantissa = np.round(np.where(np.abs(array) < TINY, 0.0, array) / 10.0 ** (exponent - DIGITS + 1)).astype(np.int64)
+    mantissa = np.round(np.where(small, 0.0, array) / 10.0 ** (exponent - DIGITS + 1)).astype(np.int64)
     return mantissa.tobytes() + exponent.astype(np.int64).tobytes()

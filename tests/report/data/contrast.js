@@ -13,7 +13,7 @@
   const found = [];
   for (const e of document.querySelectorAll("main *")) {
     const own = [...e.childNodes].some((node) => node.nodeType === 3 && node.textContent.trim());
-    if (!own || e.closest(".out, .anchor, [hidden], .zero, math") || !e.checkVisibility()) continue;
+    if (!own || e.closest(".anchor, [hidden], .zero, math") || !e.checkVisibility()) continue;
     const [high, low] = [light(parse(getComputedStyle(e).color)), light(back(e))].sort((x, y) => y - x);
     if ((high + 0.05) / (low + 0.05) < 4.5) found.push(e.className + ": " + e.textContent.slice(0, 30));
   }

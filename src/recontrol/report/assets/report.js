@@ -18,6 +18,18 @@
     });
   }
 
+  // A first click shows one verdict alone; further clicks add others; taking away the last one shows all again.
+  for (const set of document.querySelectorAll(".filter fieldset")) {
+    const boxes = [...set.querySelectorAll("input")];
+    set.addEventListener("change", (event) => {
+      const others = boxes.filter((box) => box !== event.target);
+      if (!event.target.checked && others.every((box) => box.checked)) {
+        event.target.checked = true;
+        for (const box of others) box.checked = false;
+      } else if (boxes.every((box) => !box.checked)) for (const box of boxes) box.checked = true;
+    });
+  }
+
   const reveal = () => {
     const target = location.hash.length > 1 && document.getElementById(decodeURIComponent(location.hash.slice(1)));
     if (!target) return;
