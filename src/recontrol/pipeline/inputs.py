@@ -35,6 +35,8 @@ class Parts(Mapping[str, Any]):
         return self._loaded[part]
 
     def _read(self, part: str) -> Any:
+        if self._stage == "certificates":
+            return store.read_certificate(artifact(self._key, self._stage, part))
         values = store.read_json(artifact(self._key, self._stage, part))
         if self._stage != "simulation":
             return values

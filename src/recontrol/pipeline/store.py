@@ -115,6 +115,18 @@ def read_json(path: Path | str) -> Any:
         raise ArtifactError(f"{path}: not a readable artifact ({error}); delete it and run again") from None
 
 
+def read_certificate(path: Path | str) -> Any:
+    """A certificate as it was written, plain JSON: its digest covers every entry, so nothing may become an array.
+
+    Raises ArtifactError as `read_bytes`, and for content that is not JSON.
+    """
+    content = read_bytes(path)
+    try:
+        return json.loads(content.decode("utf-8"))
+    except ValueError as error:
+        raise ArtifactError(f"{path}: not a readable certificate ({error}); delete it and run again") from None
+
+
 def digest_of(path: Path | str) -> str:
     """Recorded digest of an artifact. Raises MissingArtifactError without a record."""
     try:
