@@ -57,6 +57,7 @@ class Condition:
         if missing:
             raise KeyError(f"{self.name}: no variable or datum is called {', '.join(missing)}")
         bound = {p: values[name] for p, name in self.arguments().items()}
+        blocks.common_kind(list(bound.values()))  # CVXPY turns rationals into floats without a word
         M = as_matrix(self.function(**bound, **self.given))
         self._check(M)
         return -M if self.sense in ("<", "<=") else M
@@ -65,8 +66,6 @@ class Condition:
         kind = blocks.kind_of(M)
         if not self.is_equality and (len(M.shape) != 2 or M.shape[0] != M.shape[1]):
             raise blocks.BlockError(f"{self.name}: expected a square matrix, found shape {M.shape}")
-        if kind == blocks.CVXPY and any(c.value.dtype == object for c in M.constants()):
-            raise blocks.BlockError(f"{self.name}: rationals or balls met CVXPY variables")
         if self.is_equality:
             return
         if kind in (blocks.EXACT, blocks.BALL):

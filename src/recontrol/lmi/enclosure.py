@@ -106,8 +106,9 @@ def enclose(
 
     A first solve shows the size of everything near the optimum. In units of that size, one solve of a perturbed problem
     gives a point that holds every condition by ``margin`` and multipliers held off zero by as much; they are rounded,
-    repaired exactly and proven. Without ``margin`` the back-off grows tenfold from 1e-9 to 1e-5 until both sides are proven. The stated bounds are rounded outwards to
-    ``digits`` significant digits. ``faces`` as in `proof.prove_infeasible`. Raises NotProvenError.
+    repaired exactly and proven. Without ``margin`` the back-off grows tenfold from 1e-9 to 1e-5 until both sides are
+    proven. The stated bounds are rounded outwards to ``digits`` significant digits. ``faces`` as in
+    `proof.prove_infeasible`. Raises NotProvenError.
     """
     if problem.objective is None:
         raise NotProvenError(f"{problem.name}: an enclosure needs an objective")

@@ -28,7 +28,7 @@ Faces = Mapping[str, np.ndarray]
 # A direction counts as exposed if N is this much larger than Z in it.
 WIDE = 1e3
 # Diagonal entries that vanish at a point are taken as this share of their terms.
-SMALL = 1e-8
+SMALL = 1e-4
 
 
 @dataclass(frozen=True)
@@ -71,8 +71,8 @@ class Faced:
         for name, v in self.problem.variables.items() if self.near is not None else ():
             first = self.problem.offsets[name]
             largest = max(map(abs, (self.near or ())[first : first + v.size]))
-            if largest > 0:
-                out[first : first + v.size] = [scaling.power_of_two(largest)] * v.size
+            size = [max(largest, SMALL * float(rational.to_float(u))) for u in out[first : first + v.size]]
+            out[first : first + v.size] = [scaling.power_of_two(x) for x in size]
         return out
 
     def lifted(self, name: str, Y: np.ndarray) -> np.ndarray:

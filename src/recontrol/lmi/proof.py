@@ -145,8 +145,10 @@ def _found_multipliers(
     violation = duality.least_violation(bare, solver, time_limit)
     if violation < -duality.FEASIBLE_BY:
         raise NotProvenError(f"{problem.name}: {solver} finds a point with common margin {-violation:.3g}")
+    # Homogeneous conditions end at zero: asking them for more than nothing would leave no multipliers.
+    needed = violation / 2 if violation > duality.FEASIBLE_BY else 0.0
     start = Faced(bare, given_faces(bare, faces))
-    for faced, found in duality.candidates(start, max(violation, 0.0) / 2, solver, time_limit):
+    for faced, found in duality.candidates(start, needed, solver, time_limit):
         notes = {"solver": solver, "violation": f"{violation:.3e}", "least_eigenvalue": f"{found.least:.3e}"}
         notes["faces"] = ", ".join(f"{n}: {W.shape[1]} of {W.shape[0]}" for n, W in faced.faces.items())
         with suppress(NotProvenError):

@@ -117,6 +117,8 @@ def _repair(faced: Faced, Z: dict[str, np.ndarray], equations: list[int]) -> Non
     costs = problem.costs[1]
     right = np.array([[costs.get(i, fmpq(0))] for i in equations], dtype=object) - A @ z
     rows, columns = _solvable(problem, A, weights, right)
+    if not rows:
+        return
     step = linalg.solve(A[np.ix_(rows, columns)], right[rows])
     for column, change in zip(columns, step[:, 0], strict=True):
         name, i, j = places[column]

@@ -1,0 +1,395 @@
+"""Certificate files: what a reader can check, and every way to tamper with one that must not work."""
+
+import copy
+import json
+from pathlib import Path
+
+import pytest
+from flint import fmpq
+
+from recontrol.exact import ball, rational
+from recontrol.lmi import verify
+from recontrol.lmi.certificate import decode, encode
+from recontrol.lmi.conditions import minimise
+from recontrol.lmi.enclosure import enclose
+from recontrol.lmi.problem import Problem
+from recontrol.lmi.proof import prove_feasible, prove_infeasible
+from recontrol.lmi.variables import scalar, symmetric
+
+CONDITIONS = """
+from flint import fmpq
+from recontrol.lmi.blocks import block, eye, he, negative, positive
+
+@positive
+def definite(P):
+    return P
+
+@negative
+def lyapunov(P, A):
+    return he(P @ A)
+
+@negative
+def bounded_real(P, gamma2, A, B, C):
+    return block([[he(P @ A) + C.T @ C, P @ B], [-gamma2 * eye(1)]])
+
+def squared_gain(gamma2):
+    return gamma2
+
+def problem_data(data, case):
+    sign = -1 if case == "flipped" else 1
+    return {"A": sign * data["A"], "B": data["B"], "C": data["C"], "K": data.ball("K")}
+"""
+
+PAPER = """
+key: proven2024
+title: A paper with a proof
+authors: [A. Author]
+year: 2024
+venue: Nowhere
+doi: ""
+bibtex: {type: article, key: proven2024}
+about: a test
+use: for tests only
+data:
+  A: {printed: "0 1\\n-2 -3", unit: "1", where: "(1)", what: state matrix, exact: true}
+  B: {printed: "0\\n1", unit: "1", where: "(1)", what: input matrix, exact: true}
+  C: {printed: "1 0", unit: "1", where: "(1)", what: output matrix, exact: true}
+  K: {printed: "0.25", unit: "1", where: "(2)", what: a printed gain}
+cases:
+  plain: {what: as printed}
+  flipped: {what: with the sign of A turned}
+"""
+
+
+@pytest.fixture(scope="module")
+def root(tmp_path_factory):
+    folder = tmp_path_factory.mktemp("project")
+    paper = folder / "papers" / "proven2024"
+    paper.mkdir(parents=True)
+    (paper / "paper.yaml").write_text(PAPER)
+    (paper / "conditions.py").write_text(CONDITIONS)
+    return folder
+
+
+@pytest.fixture(scope="module")
+def conditions(root):
+    from recontrol.lmi.rebuild import _importable, locate
+
+    names = ("definite", "lyapunov", "bounded_real", "squared_gain")
+    with _importable(root):
+        return {name: locate(f"papers.proven2024.conditions:{name}") for name in names}
+
+
+@pytest.fixture(scope="module")
+def data(root):
+    from recontrol.paper import load
+
+    found = load(root / "papers" / "proven2024").data
+    return {name: found[name] for name in "ABC"}
+
+
+CONTEXT = {"paper": "proven2024", "case": "plain", "source": "papers.proven2024.conditions:problem_data"}
+
+
+@pytest.fixture(scope="module")
+def made(conditions, data):
+    """One certificate of each kind, by statement."""
+    c = conditions
+    stable = Problem("stable", {"P": symmetric(2)}, [c["definite"], c["lyapunov"]], {"A": data["A"]}, **CONTEXT)
+    flipped = {**CONTEXT, "case": "flipped"}
+    unstable = Problem("unstable", {"P": symmetric(2)}, [c["definite"], c["lyapunov"]], {"A": -data["A"]}, **flipped)
+    unknowns = {"P": symmetric(2), "gamma2": scalar()}
+    gain = Problem("gain", unknowns, [c["definite"], c["bounded_real"]], data, minimise(c["squared_gain"]), **CONTEXT)
+    proven = enclose(gain)
+    return {
+        "definite": prove_feasible(stable, stable.solve()),
+        "infeasible": prove_infeasible(unstable),
+        "upper": proven.upper_certificate,
+        "lower": proven.lower_certificate,
+    }
+
+
+KINDS = ("definite", "infeasible", "upper", "lower")
+
+
+def resealed(certificate, change):
+    """The certificate after ``change``, its digest computed again."""
+    altered = copy.deepcopy(certificate)
+    change(altered)
+    altered["digest"] = verify.digest(altered)
+    return altered
+
+
+@pytest.mark.parametrize("kind", KINDS)
+def test_certificates_hold_alone_and_against_the_paper(made, root, tmp_path, kind):
+    alone = verify.check(made[kind], tmp_path)
+    assert alone.holds
+    assert "arithmetic alone" in alone.why
+    rebuilt = verify.check(made[kind], root)
+    assert rebuilt.holds, rebuilt.why
+    assert "rebuilt from papers/proven2024" in rebuilt.why
+    assert rebuilt.strength == "exact"
+
+
+@pytest.mark.parametrize("kind", KINDS)
+def test_a_changed_file_is_refused_by_its_digest(made, root, kind):
+    altered = copy.deepcopy(made[kind])
+    altered["says"] = "something else"
+    found = verify.check(altered, root)
+    assert not found.holds
+    assert "digest" in found.why
+
+
+def test_certificates_survive_their_file(made):
+    for certificate in made.values():
+        assert verify.check(json.loads(json.dumps(certificate, indent=1))).holds
+
+
+def negate(rows):
+    return [[x[1:] if x.startswith("-") else x if x == "0" else "-" + x for x in row] for row in rows]
+
+
+def altered_matrix(c):
+    c["matrices"][1]["matrix"] = negate(c["matrices"][1]["matrix"])
+
+
+def altered_multiplier(c):
+    name = next(iter(c["witness"]["multipliers"]))
+    c["witness"]["multipliers"][name][0][0] = "0"
+
+
+def better_upper(c):
+    c["bound"]["value"] = "1/5"
+
+
+def better_lower(c):
+    c["bound"]["value"] = "3/10"
+
+
+def swapped_side(c):
+    c["bound"]["side"] = "lower" if c["bound"]["side"] == "upper" else "upper"
+
+
+def other_statement(c):
+    c["statement"] = "infeasible" if c["proof"] == "point" else "definite"
+
+
+def no_conditions(c):
+    c["matrices"] = []
+
+
+@pytest.mark.parametrize(
+    ("kind", "change"),
+    [
+        ("definite", altered_matrix),
+        ("definite", other_statement),
+        ("definite", no_conditions),
+        ("infeasible", altered_multiplier),
+        ("infeasible", other_statement),
+        ("lower", altered_multiplier),
+        ("lower", better_lower),
+        ("lower", swapped_side),
+        ("upper", altered_matrix),
+        ("upper", better_upper),
+        ("upper", swapped_side),
+    ],
+)
+def test_false_arithmetic_is_refused_even_with_a_new_digest(made, tmp_path, kind, change):
+    assert not verify.check(resealed(made[kind], change), tmp_path).holds
+
+
+def altered_witness(c):
+    c["witness"]["point"]["P"] = negate(c["witness"]["point"]["P"])
+
+
+def friendlier_matrix(c):
+    c["matrices"][1]["matrix"] = [["1", "0"], ["0", "1"]]
+
+
+def friendlier_data(c):
+    c["data"]["A"][1][1] = "-4"
+
+
+def dropped_condition(c):
+    c["conditions"].pop()
+    c["matrices"].pop()
+
+
+def other_sense(c):
+    c["conditions"][1]["sense"] = ">"
+
+
+def foreign_function(c):
+    c["conditions"][1]["function"] = "os:system"
+
+
+def foreign_paper_function(c):
+    c["conditions"][1]["function"] = "papers.proven2024.conditions:absent"
+
+
+def other_case(c):
+    c["case"] = "flipped" if c["case"] == "plain" else "plain"
+
+
+def friendlier_form(c):
+    c["forms"][1]["coefficients"]["0"] = [[0, 0, "1"]]
+    c["witness"]["multipliers"] = {"lyapunov": [["1", "0"], ["0", "0"]]}
+
+
+def other_objective(c):
+    c["objective"]["constant"] = "-1"
+    c["bound"]["value"] = "0"
+
+
+@pytest.mark.parametrize(
+    ("kind", "change"),
+    [
+        ("definite", altered_witness),
+        ("definite", friendlier_matrix),
+        ("definite", friendlier_data),
+        ("definite", other_sense),
+        ("definite", foreign_function),
+        ("definite", foreign_paper_function),
+        ("definite", other_case),
+        ("infeasible", friendlier_data),
+        ("infeasible", friendlier_form),
+        ("infeasible", other_case),
+        ("upper", altered_witness),
+        ("upper", other_objective),
+    ],
+)
+def test_true_arithmetic_about_something_else_is_refused_with_the_paper(made, root, kind, change):
+    found = verify.check(resealed(made[kind], change), root)
+    assert not found.holds, found.why
+
+
+def test_a_new_digest_is_accepted_while_the_statement_is_true(made, root):
+    """Another Lyapunov matrix, with its own right matrices: true, so accepted."""
+
+    def scaled(c):
+        double = decode(c["witness"]["point"]["P"]) * fmpq(2)
+        c["witness"]["point"]["P"] = encode(double)
+        for item in c["matrices"]:
+            item["matrix"] = encode(decode(item["matrix"]) * fmpq(2))
+
+    assert verify.check(resealed(made["definite"], scaled), root).holds
+
+    def weaker(c):
+        c["bound"]["value"] = "1"
+
+    assert verify.check(resealed(made["upper"], weaker), root).holds
+
+
+def test_fewer_conditions_are_another_statement_and_say_so(made, root):
+    found = verify.check(resealed(made["definite"], dropped_condition), root)
+    assert found.holds
+    assert found.why.startswith("1 condition(s)")
+
+
+def test_data_that_the_paper_does_not_give_are_named(conditions, data, root):
+    c = conditions
+    given = {"A": data["A"], "gamma2": fmpq(1), "B": data["B"], "C": data["C"]}
+    problem = Problem("gain", {"P": symmetric(2)}, [c["definite"], c["bounded_real"]], given, **CONTEXT)
+    found = verify.check(prove_feasible(problem, problem.solve()), root)
+    assert found.holds
+    assert found.why.endswith("data that the paper does not give: gamma2")
+
+
+def test_ball_data_are_proven_again_with_the_paper(conditions, data, root):
+    from recontrol.paper import load
+
+    c = conditions
+    box = load(root / "papers" / "proven2024").data.ball("K")
+    given = {"A": data["A"], "K": box, "B": data["B"], "C": data["C"]}
+    from recontrol.lmi.conditions import condition
+
+    bounded = condition(c["bounded_real"], rename={"gamma2": "K"})
+    problem = Problem("gain", {"P": symmetric(2)}, [c["definite"], bounded], given, **CONTEXT)
+    with pytest.raises(ArithmeticError):  # 0.25 is the optimum, and the box of "0.25" reaches below it
+        prove_feasible(problem, problem.solve())
+    short = Problem(
+        "short", {"P": symmetric(2)}, [c["definite"], c["lyapunov"]], {"A": data["A"] * box}, paper="proven2024"
+    )
+    certificate = prove_feasible(short, short.solve())
+    found = verify.check(certificate, root)
+    assert found.holds
+    assert found.strength == "ball"
+
+    def narrower(cert):
+        for row in cert["data"]["A"]:
+            for x in row:
+                if isinstance(x, dict):
+                    x["rad"] = "0"
+
+    with_source = resealed(certificate, lambda cert: cert.update(source=CONTEXT["source"], case="plain"))
+    assert not verify.check(resealed(with_source, narrower), root).holds
+
+
+@pytest.mark.parametrize(
+    "change",
+    [
+        lambda c: c.update(schema="recontrol/certificate/0"),
+        lambda c: c.pop("proof"),
+        lambda c: c.pop("matrices"),
+        lambda c: c["matrices"][0].update(matrix=[["1", "0"]]),
+        lambda c: c["matrices"][0].update(matrix=[["1", "0"], ["1/2", "1"]]),
+        lambda c: c["matrices"][0].update(matrix=[["nan", "0"], ["0", "1"]]),
+        lambda c: c["matrices"][0].update(matrix=[[0.5, "0"], ["0", "1"]]),
+        lambda c: c["matrices"][0].update(matrix=[[{"mid": "1/3", "rad": "0"}, "0"], ["0", "1"]]),
+        lambda c: c.update(precision="many"),
+    ],
+)
+def test_malformed_certificates_are_refused_in_words(made, change):
+    found = verify.check(resealed(made["definite"], change))
+    assert not found.holds
+    assert found.why
+
+
+def test_a_negative_slack_is_no_multiplier(made, tmp_path):
+    """A condition marked as slack must be of the form V > 0."""
+
+    def bend(c):
+        c["forms"][0]["coefficients"]["0"] = [[0, 0, "-1"]]
+
+    assert not verify.check(resealed(made["infeasible"], bend), tmp_path).holds
+
+    def twice(c):
+        c["forms"][0]["coefficients"]["1"] = [[0, 0, "1"]]
+
+    assert not verify.check(resealed(made["infeasible"], twice), tmp_path).holds
+
+
+def test_balls_are_stored_outwards():
+    x = ball.ball("0.1", "0.05")
+    again = decode(encode(x))
+    assert again.contains(x)
+    M = ball.box(rational.matrix("1 2"), rational.matrix("0.5 0"))
+    assert all(b.contains(a) for a, b in zip(M.flat, decode(encode(M)).flat, strict=True))
+
+
+def test_the_verifier_stands_alone(made, tmp_path):
+    """It imports nothing of this project: run it with the one file and python-flint."""
+    import subprocess
+    import sys
+
+    source = Path(verify.__file__).read_text(encoding="utf-8")
+    (tmp_path / "verifier.py").write_text(source)
+    for kind, certificate in made.items():
+        (tmp_path / f"{kind}.json").write_text(json.dumps(certificate))
+    command = [sys.executable, "-I", "verifier.py", *(f"{kind}.json" for kind in made)]
+    done = subprocess.run(command, cwd=tmp_path, capture_output=True, text=True, check=False)
+    assert done.returncode == 0, done.stdout + done.stderr
+    assert done.stdout.count("holds, exact") == len(made)
+
+
+def test_command_line_says_what_it_found(made, tmp_path, capsys, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    Path("good.json").write_text(json.dumps(made["upper"]))
+    Path("bad.json").write_text(json.dumps({**made["upper"], "says": "x"}))
+    Path("list.json").write_text("[]")
+    assert verify.main(["good.json"]) == 0
+    assert verify.main(["good.json", "bad.json"]) == 1
+    assert "bad.json: REFUSED" in capsys.readouterr().out
+    assert verify.main(["list.json"]) == 2
+    assert verify.main(["absent.json"]) == 2
+    assert verify.main([]) == 2
