@@ -76,7 +76,9 @@ def verdicts() -> list[dict[str, Any]]:
                     entries=[entry("1,3", "0.5147", "0.514723", "yes", 0.23, 4)])], explained_by="cut"),
         claim("eq55-e65", "erratum", [
             finding("A - LC", "definition", "no", "exact", value="1", units_in_last_place=1.0, digits=0,
-                    entries=[entry("1,1", "0", "1", "no", 1.0, 0, 1)])], origin="print-or-ocr"),
+                    entries=[entry("1,1", "0", "1", "no", 1.0, 0, 1)],
+                    evidence={"correct form": "a shift row has $1$", "numbers": "the right version"})],
+              origin="print-or-ocr"),
         claim("eq44-K", "certified", [
             finding("published point", "definition", "yes", "exact", value="definite", certificate="loop-full")]),
         claim("s3-pattern", "not-reproduced", [

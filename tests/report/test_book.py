@@ -34,6 +34,9 @@ def test_the_errata_sheet_gives_place_print_finding_reason_and_proof(tree: Path)
     assert "- Printed: 16 entries" in first
     assert "- Origin: A - 2BK" in first
     assert "`recontrol explain fake2020/eq55-11`" in first
+    last = text[text.index("### 1. (55)(6,5)") :]
+    assert "- Correct: a shift row has $1$" in last
+    assert "- The paper's numbers: the right version" in last
     assert text.index("## In print") < text.index("may be the scan's") < text.index("(55)(6,5)")
 
 

@@ -81,6 +81,7 @@ def test_found_numbers_take_the_form_of_the_print(found: str, printed: str, show
         ("-1.179", "1.179", [("-1.179", True)]),
         ("12.5", "2.5", [("12.5", True)]),
         ("2.50", "2.50", [("2.50", False)]),
+        ("1.5±2.07i", "1.5±2.08i", [("1.5±2.0", False), ("7", True), ("i", False)]),
     ],
 )
 def test_mark_starts_at_the_first_differing_place(text: str, other: str, pieces: list[tuple[str, bool]]) -> None:

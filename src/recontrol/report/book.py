@@ -149,13 +149,14 @@ def errata(paper: Paper) -> str:
 
 def _erratum(number: int, claim: Claim) -> list[str]:
     value = present.correction(claim)
-    value = value and found(claim)
+    value = value if claim.correct else value and found(claim)
     proof = STRENGTHS.get(claim.strength or "", "")
     how = words.COMPARISONS.get(claim.compare, claim.compare)
     lines = [f"### {number}. {claim.where}: {claim.title}", ""]
     lines.append(f"- Printed: {printed(claim) or 'see there'}")
-    lines += [f"- Found: {value}"] if value else []
+    lines += [f"- {'Correct' if claim.correct else 'Found'}: {value}"] if value else []
     lines.append(f"- Reason: {' '.join(claim.because.split())}")
     lines += [f"- Origin: {claim.explanations[0].name}"] if claim.explanations else []
+    lines += [f"- The paper's numbers: {claim.numbers_used}"] if claim.numbers_used else []
     lines.append(f"- Proof: {how}, {proof}; `recontrol explain {claim.paper}/{claim.id}`")
     return [*lines, ""]

@@ -176,6 +176,21 @@ class Claim:
         against.sort(key=lambda finding: finding.kind != "definition")
         return next(iter((against if self.verdict == "erratum" else []) + named + definitions + self.findings), None)
 
+    def evidence(self, *names: str) -> str:
+        """The first text that a finding gives under one of the names; empty if none does."""
+        given = [finding.evidence for finding in self.findings if isinstance(finding.evidence, dict)]
+        return next((str(found[name]) for found in given for name in names if isinstance(found.get(name), str)), "")
+
+    @property
+    def correct(self) -> str:
+        """The correct form of an erratum in words or symbols, where a reading names it."""
+        return self.evidence("correct form", "correct")
+
+    @property
+    def numbers_used(self) -> str:
+        """Whether the paper's own numbers used the correct form, where a reading says so."""
+        return self.evidence("numbers")
+
     @cached_property
     def explanations(self) -> list[Finding]:
         """Explanations that agree with the print, the reviewed one first."""

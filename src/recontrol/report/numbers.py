@@ -286,6 +286,8 @@ def mark(text: str, other: str) -> list[tuple[str, bool]]:
     """
     if text == other:
         return [(text, False)]
+    if text[-1:] == other[-1:] == "i":
+        return [*mark(text[:-1], other[:-1]), ("i", False)]
     if text.startswith("-") != other.startswith("-"):
         return [(text, True)]
     head, other_head = re.split(r"[.e]", text, maxsplit=1)[0], re.split(r"[.e]", other, maxsplit=1)[0]

@@ -187,8 +187,8 @@ def compared(claim: Claim, finding: Finding) -> list[tuple[numbers.Cell, str]]:
     return [(cell, text) for cell, text in pairs if cell is not None]
 
 
-def one_line(value: Any) -> str:
-    """Return any artifact value in one line."""
+def one_line(value: Any, digits: int = 6) -> str:
+    """Return any artifact value in one line, numbers to that many significant digits."""
     if value is None:
         return ""
     if isinstance(value, bool):
@@ -199,7 +199,7 @@ def one_line(value: Any) -> str:
     cells = numbers.decode(value)
     if cells is not None:
         if sum(map(len, cells)) == 1:
-            return numbers.write(cells[0][0])
+            return numbers.write(cells[0][0], digits)
         if len(cells) == 1 and len(cells[0]) <= 6:
             return "(" + ", ".join(numbers.write(cell, 5) for cell in cells[0]) + ")"
         return f"{len(cells)} × {max(map(len, cells))} matrix"
@@ -256,8 +256,10 @@ def tree(value: Any) -> tuple[str, Any]:
 
 
 def correction(claim: Claim) -> str:
-    """Return what was found in place of an erratum in one line; empty where the finding is only that it differs."""
+    """Return what should stand in place of an erratum in one line; empty where the finding is only that it differs."""
     finding = claim.decisive
+    if claim.correct:
+        return claim.correct
     if finding is None or finding.cases or claim.compare in ("identity", "membership"):
         return ""
     return found_text(claim, finding)
@@ -306,7 +308,7 @@ def solver_cell(row: dict[str, Any], key: str) -> str:
     if key == "least margin":
         margins = row.get("margins")
         known = [value for value in margins.values() if value is not None] if isinstance(margins, dict) else []
-        return one_line(min(known)) if known and all(isinstance(value, (int, float)) for value in known) else ""
+        return one_line(min(known), 2) if known and all(isinstance(value, (int, float)) for value in known) else ""
     return one_line(row.get(key))
 
 

@@ -49,7 +49,15 @@ def _write(target: Path, papers: list[Paper]) -> None:
     for name in sorted(shown):
         code = Markup(_highlight((papers[0].root / name).read_text(encoding="utf-8")))
         up = "../" * (name.count("/") + 1)
-        _page(environment, "source.html.j2", target / "source" / f"{name}.html", name=name, code=code, up=up)
+        _page(
+            environment,
+            "source.html.j2",
+            target / "source" / f"{name}.html",
+            name=name,
+            code=code,
+            up=up,
+            papers=papers,
+        )
     with as_file(files("recontrol.report") / "assets") as assets:
         shutil.copytree(assets, target / "assets")
     (target / "assets" / "code.css").write_text(_code_style(), encoding="utf-8")
