@@ -48,7 +48,9 @@ def eq21() -> Result:
     error = s.x - s.xh
     more = {"residual is -L C xt": equal(derived - s.A @ error, -(s.L @ s.C) @ error)}
     numbers = "the right version: (54) places the poles of A - LC"
-    return _misprint(s.A @ error, derived, "xt' = (A - LC) xt", (s.A - s.L @ s.C) @ error, numbers, **more)
+    return _misprint(
+        s.A @ error, derived, r"$\dot{\tilde x} = (A - LC)\tilde x$", (s.A - s.L @ s.C) @ error, numbers, **more
+    )
 
 
 def eq22() -> Result:
@@ -57,7 +59,7 @@ def eq22() -> Result:
     free = s.A @ s.xh + s.F @ s.u + s.L @ (s.C @ s.x - s.C @ s.xh)
     residual = equal(state(s, s.x, s.u) - free - (s.A - s.L @ s.C) @ (s.x - s.xh), (s.B - s.F) @ s.u)
     evidence = {
-        "correct form": "xh' = A xh + B u + L(y - C xh)",
+        "correct form": r"$\dot{\hat x} = A\hat x + Bu + L(y - C\hat x)$",
         "another input matrix F leaves (B - F) u in the error": residual,
         "numbers": "the right version: A - BK - LC in (55) has B",
     }
@@ -72,7 +74,7 @@ def eq26() -> Result:
     error_rate = rate - estimator(s, s.C @ s.x, -s.K @ s.xh)
     right = stack((s.A - s.B @ s.K) @ s.x + s.B @ s.K @ error, (s.A - s.L @ s.C) @ error)
     evidence = {
-        "correct form": "left side [x'; xt']",
+        "correct form": r"left side $\begin{bmatrix}\dot x \\ \dot{\tilde x}\end{bmatrix}$",
         "correct form follows": equal(stack(rate, error_rate), right),
         "numbers": "(55) has neither the right side's first block nor its last",
     }
@@ -83,7 +85,7 @@ def eq32() -> Result:
     """x becomes x1 as printed, yet A becomes A22, which multiplies n-1 states."""
     s = symbols(ORDER)
     evidence = {
-        "correct form": "x -> x2",
+        "correct form": r"$x \to x_2$",
         "correct form follows": s.A22.shape[1] == s.x2.shape[0],
         "numbers": "the right version: (66) has n-1 states",
     }
@@ -101,7 +103,7 @@ def eq35() -> Result:
     """y' - A21 y - B1 u as printed: a scalar less a column of n-1 entries."""
     s = symbols(ORDER)
     evidence = {
-        "correct form": "y -> y' - A11 y - B1 u",
+        "correct form": r"$y \to \dot y - A_{11} y - B_1 u$",
         "correct form follows": equal(output_rate(s, s.x2, s.y, s.u) - s.A11 @ s.y - s.B1 @ s.u, s.A12 @ s.x2),
         "numbers": "the right version, by way of (37) in (66), (67)",
     }
@@ -129,7 +131,8 @@ def eq37() -> Result:
     """With the printed +B1 u an estimate that is right, xh2 = x2, does not stay right."""
     printed, derived, residual = _printed_37(ORDER)
     evidence = {
-        "correct form": "xh2' = A22 xh2 + A21 y + B2 u + L(y' - A11 y - B1 u - A12 xh2)",
+        "correct form": r"$\dot{\hat x}_2 = A_{22}\hat x_2 + A_{21} y + B_2 u"
+        r" + L(\dot y - A_{11} y - B_1 u - A_{12}\hat x_2)$",
         "residual at xh2 = x2 is 2 L B1 u": residual,
         "numbers": "the right version: (66), (67) follow from B2 - L B1",
     }
@@ -143,7 +146,9 @@ def eq39() -> Result:
     derived = reduced_state(s, s.x2, s.y, s.u) - reduced_estimator(s, dy)
     M = s.A22 - s.L_r @ s.A12
     numbers = "the right version: the poles of A22 - L A12 are those of the estimator"
-    return _misprint(M @ s.xh2, derived, "xt2' = (A22 - L A12) xt2", M @ (s.x2 - s.xh2), numbers)
+    return _misprint(
+        M @ s.xh2, derived, r"$\dot{\tilde x}_2 = (A_{22} - L A_{12})\tilde x_2$", M @ (s.x2 - s.xh2), numbers
+    )
 
 
 def eq40() -> Result:
@@ -155,7 +160,7 @@ def eq40() -> Result:
     rate = stack(*[s.dy] * (ORDER - 1))
     printed = M @ s.xh2 + M @ s.xh2 + s.B2 @ s.u + rate
     correct_form = M @ s.xh2 + (s.A21 - s.L_r @ s.A11) @ s.y + (s.B2 - s.L_r @ s.B1) @ s.u + s.L_r @ s.dy
-    correct = "xh2' = (A22 - L A12) xh2 + (A21 - L A11) y + (B2 - L B1) u + L y'"
+    correct = r"$\dot{\hat x}_2 = (A_{22} - L A_{12})\hat x_2 + (A_{21} - L A_{11}) y + (B_2 - L B_1) u + L\dot y$"
     return _misprint(printed, derived, correct, correct_form, "the right version, by way of (42)")
 
 
@@ -169,7 +174,7 @@ def eq43() -> Result:
     return _misprint(
         printed,
         derived,
-        "u = -K1 y - K2 xh2",
+        r"$u = -K_1 y - K_2\hat x_2$",
         control(s, s.xh2),
         "the right version: (69) is -K1 - K2 L",
         **{"first equality [K1 K2][y; xh2] as printed": equal(first, derived)},
@@ -184,7 +189,7 @@ def eq46() -> Result:
     return _misprint(
         printed @ s.xc,
         derived,
-        "A_r = A22 - L A12 - (B2 - L B1) K2",
+        r"$A_r = A_{22} - L A_{12} - (B_2 - L B_1) K_2$",
         corrected_A_r(s) @ s.xc,
         "the right version: the columns of (66) give one L with it and exclude each other with the print",
     )
@@ -195,7 +200,7 @@ def eq47() -> Result:
     s = symbols(ORDER)
     derived = compensator_rate(s) - corrected_A_r(s) @ s.xc
     evidence = {
-        "correct form": "B_r = A_r L + A21 - L A11 - (B2 - L B1) K1",
+        "correct form": r"$B_r = A_r L + A_{21} - L A_{11} - (B_2 - L B_1) K_1$",
         "correct form follows": equal(corrected_B_r(s) @ s.y, derived),
         "numbers": "the right version: (67) follows from it",
     }
@@ -213,7 +218,7 @@ def s24_x1dot() -> Result:
     """x1' = y together with (28), x1 = y: the first row of (4) is not x1."""
     s = symbols(ORDER)
     rate = output_rate(s, s.x[1:], s.x[:1], s.u)
-    return _misprint(s.x[:1], state(s, s.x, s.u)[:1], "x1' = y', which (30) has", rate, "not used")
+    return _misprint(s.x[:1], state(s, s.x, s.u)[:1], r"$\dot x_1 = \dot y$, which (30) has", rate, "not used")
 
 
 def s24_swap() -> Result:
@@ -256,7 +261,7 @@ def s24_names() -> Result:
     return _misprint(
         one_state,
         derived,
-        "x_c = x_3 = xh2 - L y, while x_b = xh2",
+        r"$x_c = x_3 = \hat x_2 - L y$, while $x_b = \hat x_2$",
         control(s, s.xc + s.L_r @ s.y),
         "the right version: (69) is -K1 - K2 L",
         **{"x_c and x_3 have one rate": equal(compensator_rate(s), derived_rate())},

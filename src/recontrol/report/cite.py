@@ -6,6 +6,7 @@ from pathlib import Path
 
 from recontrol.report import artifacts, bibtex, present, terminal, words
 from recontrol.report.collect import Claim, Paper
+from recontrol.report.unicode import plain
 
 
 def text(root: Path, identity: str) -> str:
@@ -51,7 +52,7 @@ def sentence(paper: Paper, claim: Claim) -> str:
     found = f"; found: {value}" if value else ""
     scan = ", possibly the scan's" if claim.scanned and claim.verdict == "erratum" else ""
     verdict = words.verdict(claim.verdict).label
-    return (
+    return plain(
         f"{authors(paper)}, {claim.where}: {claim.title}{shown} is judged “{verdict}”{scan}{how}{found} "
         f"(recontrol {bibtex.version()}, {claim.identity})."
     )

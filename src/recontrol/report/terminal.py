@@ -8,6 +8,7 @@ from pathlib import Path
 from recontrol.errors import UnknownNameError
 from recontrol.report import present, words
 from recontrol.report.collect import Claim, Finding, Paper
+from recontrol.report.unicode import plain
 
 WIDTH = 100
 
@@ -54,7 +55,7 @@ def list_papers(root: Path) -> str:
         counts = ", ".join(f"{n} {label(name)}" for name, n in found.counts.items())
         lines.append(f"{key:<14}{len(found.claims):>4} claims   {counts if made else 'not run yet'}")
         lines.append(f"{'':<14}{found.about.get('title', '')}")
-    return "\n".join(lines)
+    return plain("\n".join(lines))
 
 
 def label(name: str) -> str:
@@ -84,7 +85,7 @@ def show_paper(root: Path, key: str) -> str:
         )
     if any(item.scanned for item in found.claims):
         lines.append("* may be the scan's")
-    return "\n".join(line.rstrip() for line in lines)
+    return plain("\n".join(line.rstrip() for line in lines))
 
 
 def explain(root: Path, identity: str) -> str:
@@ -97,6 +98,7 @@ def explain(root: Path, identity: str) -> str:
         found.title,
         "",
         *block("printed", (found.printed or "").splitlines() + ([f"[{found.unit}]"] if _shown(found.unit) else [])),
+        *block("correct", [found.correct] if found.correct else []),
         *block("verdict", [" ".join([verdict.label, *(f"({fact})" for fact in facts if fact)])]),
         *block("rule", wrap(verdict.rule)),
         *block("reviewed", [words.verdict(found.expected).label + (" (differs!)" if found.drifted else "")]),
@@ -107,7 +109,7 @@ def explain(root: Path, identity: str) -> str:
         lines += ["", *_reading(found, finding)]
     if not found.findings:
         lines += ["", "No reading has run: `snakemake --cores 2 " + found.paper + "` makes the verdicts."]
-    return "\n".join(line.rstrip() for line in lines)
+    return plain("\n".join(line.rstrip() for line in lines))
 
 
 def _shown(unit: str) -> bool:
