@@ -35,6 +35,7 @@ wildcard_constraints:
 include: "rules/chain.smk"
 include: "rules/report.smk"
 include: "rules/artifacts.smk"
+include: "rules/campaign.smk"
 
 
 # Everything of every paper, the report and the review.
@@ -49,6 +50,7 @@ rule all:
             "results/crate/ro-crate-metadata.json",
         ],
         rules.latex.output,
+        graph.ensembles(graph.papers),
 
 
 onerror:

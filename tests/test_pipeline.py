@@ -270,3 +270,15 @@ def test_closure_follows_function_level_and_relative_imports(built_toy):
     assert "papers/toy2024/simulation.py" not in files
     assert "papers/toy2024/helper.py" not in closure.code_of("model", "toy2024", built_toy.folder)
     assert "src/recontrol/plotting.py" in closure.code_of("figure", "toy2024", built_toy.folder)
+
+
+def test_campaign_resumes_and_contains_the_small_ensemble(toy):
+    toy.edit("config/config.yaml", "campaign_chunks: 100", "campaign_chunks: 3")
+    toy.snakemake("results/toy2024/ensemble/poles/chunk-00001.json")
+    ran = jobs(toy.snakemake("campaign").stdout)
+    assert ran == {"toy2024: poles, chunk 00002", "toy2024: poles, large campaign"}
+    large = json.loads((toy.folder / "results/toy2024/campaign/poles.json").read_text())["outcomes"]["decay"]
+    small = json.loads((toy.folder / "results/toy2024/ensemble/poles.json").read_text())["outcomes"]["decay"]
+    assert (small["count"], large["count"]) == (1000, 3000)
+    assert large["minimum"] <= small["minimum"]
+    assert large["minimum"] >= large["bound"]

@@ -67,6 +67,22 @@ class FigureEntry(Strict):
     tolerance: Annotated[str, StringConstraints(pattern=r"^\d(\.\d+)?e-\d+$")] = "1e-4"
 
 
+class Outcome(Strict):
+    """One outcome of a campaign's trajectories; `worst` says which end is the bad one."""
+
+    unit: str
+    what: Text
+    worst: Annotated[str, StringConstraints(pattern="^(max|min)$")] = "max"
+
+
+class Campaign(Strict):
+    """An ensemble over an uncertainty that the paper itself states."""
+
+    what: Text
+    seed: Annotated[int, Field(ge=0)]
+    outcomes: dict[Name, Outcome] = Field(min_length=1)
+
+
 class Bibtex(BaseModel):
     """BibTeX entry: type, key and further fields as text."""
 
@@ -93,6 +109,7 @@ class PaperFile(Strict):
     stages: dict[str, dict[Name, Text]] = {}
     quantities: dict[Name, Quantity] = {}
     figures: dict[Name, FigureEntry] = {}
+    campaigns: dict[Name, Campaign] = {}
 
     @field_validator("stages")
     @classmethod

@@ -7,7 +7,18 @@ import sys
 
 from recontrol.pipeline import environment
 
-COMMANDS = ("stage", "figure", "verdicts", "quantities", "collect", "review", "reference", "salvage", "publish")
+COMMANDS = (
+    "stage",
+    "figure",
+    "verdicts",
+    "quantities",
+    "collect",
+    "review",
+    "reference",
+    "salvage",
+    "publish",
+    "campaign",
+)
 
 
 def main(arguments: list[str]) -> int:

@@ -21,6 +21,7 @@ MODULES = {
     "figure": "figures",
     "verdicts": "readings",
     "quantities": "quantities",
+    "campaign": "campaign",
 }
 """Stage -> module of the paper folder that holds its functions."""
 
@@ -28,6 +29,7 @@ COMMANDS = dict.fromkeys(ORDER, "stage") | {
     "figure": "figure",
     "verdicts": "verdicts",
     "quantities": "quantities",
+    "campaign": "campaign",
 }
 """Stage -> module of recontrol.pipeline that runs it."""
 

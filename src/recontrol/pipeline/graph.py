@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from pathlib import Path
 from typing import Any
 
 from recontrol.paper import STAGES_WITH_PARTS, Paper
 from recontrol.pipeline.closure import ORDER, code_of, files_of
-from recontrol.pipeline.layout import FIGURE_FORMATS, artifact, figure_file, series_file
+from recontrol.pipeline.layout import FIGURE_FORMATS, artifact, chunk_file, distribution_file, figure_file, series_file
 
 
 class Graph:
@@ -29,6 +29,15 @@ class Graph:
         """Input function: artifacts of all stages before `stage` of the wildcard's paper."""
         earlier = ORDER[: ORDER.index(stage)] if stage in ORDER else ORDER
         return lambda wildcards: [name for step in earlier for name in self.stage(wildcards.paper, step)]
+
+    def ensembles(self, keys: Iterable[str], target: str = "ensemble") -> list[str]:
+        """Merged distributions of the campaigns of some papers."""
+        return [str(distribution_file(k, name, target)) for k in keys for name in self.papers[k].file.campaigns]
+
+    @staticmethod
+    def chunks(count: int) -> Callable[[Any], list[str]]:
+        """Input function: the first `count` chunks of the wildcards' campaign."""
+        return lambda wildcards: [str(chunk_file(wildcards.paper, wildcards.name, chunk)) for chunk in range(count)]
 
     def figures(self, key: str) -> list[str]:
         """All files of all figures of a paper."""

@@ -22,6 +22,16 @@ def figure_file(key: str, figure: str, suffix: str) -> Path:
     return Path("figures", key, f"{figure}.{suffix}")
 
 
+def chunk_file(key: str, campaign: str, chunk: int) -> Path:
+    """Sketches of one chunk of a campaign."""
+    return Path("results", key, "ensemble", campaign, f"chunk-{chunk:05d}.json")
+
+
+def distribution_file(key: str, campaign: str, target: str) -> Path:
+    """Merged distributions: target `ensemble` (every run) or `campaign` (the large one)."""
+    return Path("results", key, target, f"{campaign}.json")
+
+
 def reference_file(folder: Path, figure: str) -> Path:
     """Reviewed, decimated data of a figure inside the paper folder."""
     return folder / "reference" / f"{figure}.csv"
