@@ -30,6 +30,8 @@ report: "rules/captions/workflow.rst"
 
 wildcard_constraints:
     paper="|".join(graph.papers) or "none",
+    name=r"[^/]+",
+    figure=r"[^/]+",
 
 
 include: "rules/chain.smk"

@@ -65,9 +65,10 @@ def _agrees(claim: Claim, how: str, entries: list[dict[str, Any]], misprint: Mis
             results.append(entry["agrees"])
             continue
         parts = Cell.parse(misprint.cell).parts
-        ends = [[_rational(end) for end in pair] for pair in entry["enclosure"]]
+        ends = [(_rational(low), _rational(high)) for low, high in entry["enclosure"]]
         exact = misprint.printed.exact
-        results += [agreement(claim, how, number, *end, exact) for number, end in zip(parts, ends, strict=True)]
+        for number, (low, high) in zip(parts, ends, strict=True):
+            results.append(agreement(claim, how, number, low, high, exact))
     return combine(results)
 
 

@@ -127,7 +127,7 @@ class Membership:
     @staticmethod
     def from_certificate(certificate: Mapping[str, Any]) -> Membership:
         """Truth and strength from the standalone verifier; the statement says `membership` or `exclusion`."""
-        from recontrol.lmi import verify
+        import recontrol.lmi.verify as verify
 
         verified = verify.check(certificate)
         kind = certificate.get("statement")
@@ -148,7 +148,7 @@ class Certified:
 
 def certified(certificate: Mapping[str, Any]) -> Certified:
     """Run the standalone verifier on a certificate; a certificate that does not verify is open, not a refutation."""
-    from recontrol.lmi import verify
+    import recontrol.lmi.verify as verify
 
     verified = verify.check(certificate)
     return Certified(bool(verified.holds), verified.strength, verified.why)
