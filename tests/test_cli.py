@@ -119,6 +119,7 @@ def test_a_new_folder_passes_the_contract_and_says_what_to_fill_in(run, tmp_path
         ("figures.py", "def decay", "def response", "figures.decay asks for it"),
         ("model.py", "def model(data):", "def model(data:", "model.py:4"),
         ("paper.yaml", "unit: 1/s, where: \"(2)\"", "units: 1/s, where: \"(2)\"", "data.pole"),
+        ("paper.yaml", "what: published gain}", "what: published gain, as printed}", "quote it"),
         ("claims.yaml", "note: plants", "note: planets", "planets"),
         ("claims.yaml", "data: k", "data: kk", "kk"),
     ],

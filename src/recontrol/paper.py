@@ -151,7 +151,12 @@ def validate(model: type[Strict], content: Any, lines: yamltext.Lines, path: Pat
             place = tuple(item["loc"])
             key_path = ".".join(str(step) for step in (*prefix, *place)) or "(top level)"
             found = "" if item["type"] in ("missing", "extra_forbidden") else f"; found {_short(item.get('input'))}"
-            messages.append(f"{path}:{lines.nearest((*prefix, *place))}: {key_path}: {item['msg']}{found}")
+            hint = (
+                "; a comma inside {...} ends a value: quote it"
+                if item["type"] == "extra_forbidden" and " " in str(place[-1])
+                else ""
+            )
+            messages.append(f"{path}:{lines.nearest((*prefix, *place))}: {key_path}: {item['msg']}{found}{hint}")
         raise PaperError("\n".join(messages)) from None
 
 
