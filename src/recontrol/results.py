@@ -11,7 +11,8 @@ from typing import Any
 
 from recontrol.errors import MissingArtifactError, StageError, UnknownNameError
 from recontrol.report import exports
-from recontrol.report.collect import Claim, Paper
+from recontrol.report.claim import Claim
+from recontrol.report.collect import Paper
 
 
 class Results:

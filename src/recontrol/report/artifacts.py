@@ -11,7 +11,8 @@ from typing import Any
 
 from recontrol.errors import UnknownNameError
 from recontrol.report import numbers
-from recontrol.report.collect import Claim, Paper, read_json
+from recontrol.report.claim import Claim
+from recontrol.report.collect import Paper, read_json
 
 SCHEMA = "recontrol/index/1"
 DIGITS = 6

@@ -11,7 +11,8 @@ from pathlib import Path
 
 from recontrol.errors import MissingArtifactError
 from recontrol.report import cite, numbers, present, words
-from recontrol.report.collect import Claim, Paper
+from recontrol.report.claim import Claim
+from recontrol.report.collect import Paper
 
 DIGITS = 4
 """Significant digits of a margin. Margins are given only where they refute a print beyond rounding errors: others may

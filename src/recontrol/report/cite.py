@@ -4,8 +4,9 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from recontrol.report import artifacts, bibtex, present, terminal, words
-from recontrol.report.collect import Claim, Paper
+from recontrol.report import artifacts, bibtex, present, terminal, values, words
+from recontrol.report.claim import Claim
+from recontrol.report.collect import Paper
 from recontrol.report.unicode import plain
 
 
@@ -60,7 +61,7 @@ def sentence(paper: Paper, claim: Claim) -> str:
 
 def _artifact_sentence(paper: Paper, entry: artifacts.Entry) -> str:
     title = f", {entry['title']}," if entry["title"] else ""
-    value = f" {present.one_line(entry['value'])} {entry['unit'] or ''}".rstrip() if "value" in entry else ""
+    value = f" {values.one_line(entry['value'])} {entry['unit'] or ''}".rstrip() if "value" in entry else ""
     return (
         f"{entry['identity']}{title}{value} was computed from the problem data of {authors(paper)} "
         f"by recontrol {bibtex.version()} (stage {entry['stage'] or 'unknown'})."

@@ -6,7 +6,7 @@ from pathlib import Path
 from typing import Any
 
 from recontrol.errors import MissingArtifactError
-from recontrol.report import artifacts, present
+from recontrol.report import artifacts, values
 from recontrol.report.collect import read_json
 
 
@@ -61,7 +61,7 @@ def _figures(folder: Path) -> dict[str, str]:
 
 def _short(value: Any) -> str:
     if isinstance(value, dict) and "verdict" in value:
-        found = present.one_line(value.get("found"))
+        found = values.one_line(value.get("found"))
         return f"{value['verdict']} [{value.get('strength')}] {found}".strip()
-    text = present.one_line(value)
+    text = values.one_line(value)
     return text if len(text) <= 60 else text[:57] + "..."

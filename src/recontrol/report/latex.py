@@ -5,7 +5,8 @@ from __future__ import annotations
 from pathlib import Path
 
 from recontrol.report import bibtex, numbers, present, tex, words
-from recontrol.report.collect import Claim, Paper
+from recontrol.report.claim import Claim
+from recontrol.report.collect import Paper
 
 HEAD = r"""% Findings as macros. In the preamble: \usepackage{amsmath,booktabs,longtable} and \input{claims.tex}. Then
 %   \RCprinted{hashim2015/eq69-Dr}   what the paper prints

@@ -13,7 +13,7 @@ from typing import Any
 from jinja2 import Environment, PackageLoader, StrictUndefined
 from markupsafe import Markup
 
-from recontrol.report import numbers, present, text, words
+from recontrol.report import numbers, present, text, values, words
 from recontrol.report.collect import Paper
 
 LIBRARIES = (
@@ -72,8 +72,8 @@ def _environment() -> Environment:
         lstrip_blocks=True,
         keep_trailing_newline=True,
     )
-    environment.filters.update(md=text.inline, notes=text.notes, anchor=text.anchor, tree=present.tree)
-    environment.globals.update(words=words, present=present, numbers=numbers, up="")
+    environment.filters.update(md=text.inline, notes=text.notes, anchor=text.anchor, tree=values.tree)
+    environment.globals.update(words=words, present=present, values=values, numbers=numbers, up="")
     return environment
 
 

@@ -7,7 +7,8 @@ from pathlib import Path
 
 from recontrol.errors import UnknownNameError
 from recontrol.report import present, words
-from recontrol.report.collect import Claim, Finding, Paper
+from recontrol.report.claim import Claim, Finding
+from recontrol.report.collect import Paper
 from recontrol.report.unicode import plain
 
 WIDTH = 100
