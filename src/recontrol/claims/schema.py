@@ -23,7 +23,7 @@ VerdictName = Literal[
     "erratum",
     "not-reproduced",
 ]
-ClaimId = Annotated[str, StringConstraints(pattern=r"^[a-z0-9][A-Za-z0-9_.-]{0,79}$")]
+ClaimId = Annotated[str, StringConstraints(pattern=r"^[A-Za-z0-9][A-Za-z0-9_.-]{0,79}$")]
 Decimal = Annotated[str, StringConstraints(pattern=r"^[+-]?\d+(\.\d+)?(e[+-]?\d{1,3})?$")]
 NUMERIC = ("digits", "cut", "bound")
 
