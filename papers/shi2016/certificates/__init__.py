@@ -1,0 +1,45 @@
+"""Proofs by name; each function returns one certificate of `recontrol.lmi.proof`."""
+
+from .bounds import decay_ext, hurwitz_ext, hurwitz_trad, nonfragile_trad, single_print
+from .theorems import (
+    brl_ext,
+    brl_trad,
+    lemma2_ext,
+    lemma2_trad,
+    lemmas_ext,
+    lemmas_trad,
+    thm1_iii_ext,
+    thm1_iii_trad,
+    thm1_iv_ext,
+    thm1_iv_trad,
+    thm2_printed_ext,
+    thm2_printed_trad,
+    tied_separate_ext,
+    tied_separate_trad,
+    tied_shared_ext,
+    tied_shared_trad,
+)
+
+__all__ = [
+    "brl_ext",
+    "brl_trad",
+    "decay_ext",
+    "hurwitz_ext",
+    "hurwitz_trad",
+    "lemma2_ext",
+    "lemma2_trad",
+    "lemmas_ext",
+    "lemmas_trad",
+    "nonfragile_trad",
+    "single_print",
+    "thm1_iii_ext",
+    "thm1_iii_trad",
+    "thm1_iv_ext",
+    "thm1_iv_trad",
+    "thm2_printed_ext",
+    "thm2_printed_trad",
+    "tied_separate_ext",
+    "tied_separate_trad",
+    "tied_shared_ext",
+    "tied_shared_trad",
+]
