@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import re
 
+from recontrol.report import plaintext
+
 SPECIAL = {
     "\\": r"\textbackslash{}", "{": r"\{", "}": r"\}", "#": r"\#", "%": r"\%", "&": r"\&", "_": r"\_", "$": r"\$",
     "~": r"\textasciitilde{}", "^": r"\textasciicircum{}", "<": r"\textless{}", ">": r"\textgreater{}",
@@ -31,6 +33,9 @@ def escape(text: str) -> str:
 
 def markdown(text: str | None) -> str:
     """Return one line of Markdown for LaTeX: formulas kept, code and emphasis set, everything else escaped."""
+    whole = plaintext.latex((text or "").strip())
+    if whole is not None:
+        return f"${whole}$"
     pieces = re.split(r"(\$\$?(?=\S).+?(?<=\S)\$\$?|`[^`]+`|\*\*[^*]+\*\*|\*[^*]+\*)", " ".join((text or "").split()))
     return "".join(_piece(piece) for piece in pieces)
 

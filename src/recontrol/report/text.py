@@ -11,6 +11,8 @@ from markdown_it.renderer import RendererHTML
 from markdown_it.rules_inline import StateInline
 from markupsafe import Markup, escape
 
+from recontrol.report import plaintext
+
 
 def formula(latex: str, display: bool = False) -> Markup:
     """Return a formula as MathML; one that cannot be read is shown as its source."""
@@ -45,7 +47,10 @@ def _parser() -> MarkdownIt:
 
 
 def inline(text: str | None) -> Markup:
-    """Return one line of Markdown with formulas."""
+    """Return one line of Markdown with formulas; a line that is a plain-text formula as a whole is typeset too."""
+    whole = plaintext.latex((text or "").strip())
+    if whole is not None:
+        return formula(whole)
     return Markup(_parser().renderInline(" ".join((text or "").split())))
 
 

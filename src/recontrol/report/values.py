@@ -6,6 +6,9 @@ from typing import Any
 
 from recontrol.report import numbers
 
+ROW = 6
+"""Longest row of numbers that is written on one line."""
+
 
 def one_line(value: Any, digits: int = 6) -> str:
     """Return any artifact value in one line, numbers to that many significant digits."""
@@ -20,7 +23,7 @@ def one_line(value: Any, digits: int = 6) -> str:
     if cells is not None:
         if sum(map(len, cells)) == 1:
             return numbers.write(cells[0][0], digits)
-        if len(cells) == 1 and len(cells[0]) <= 6:
+        if len(cells) == 1 and len(cells[0]) <= ROW:
             return "(" + ", ".join(numbers.write(cell, 5) for cell in cells[0]) + ")"
         return f"{len(cells)} × {max(map(len, cells))} matrix"
     if isinstance(value, dict):
@@ -47,8 +50,9 @@ def tree(value: Any) -> tuple[str, Any]:
 
 
 def is_nested(value: Any) -> bool:
-    """Say whether a value needs more than one line."""
-    return tree(value)[0] != "text"
+    """Say whether a value needs more than one line; a short row of numbers does not."""
+    kind, content = tree(value)
+    return kind != "text" and not (kind == "matrix" and len(content) == 1 and len(content[0]) <= ROW)
 
 
 SOLVER_COLUMNS = {
