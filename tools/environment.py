@@ -16,6 +16,14 @@ from pathlib import Path
 
 OLDEST, NEWEST = (3, 11), (3, 13)
 DISK_MB = 2500
+NO_VENV = "The venv module may be missing: on Debian and Ubuntu install python3-venv, then run the same command again"
+NO_PACKAGES = (
+    "If the network or the package index was the cause, run the same command again; if a hash differs, the lock file "
+    "or the download was altered"
+)
+NO_FIT = (
+    "The lock contradicts itself: take environment.lock and environment-test.lock from one commit, or run `make lock`"
+)
 
 
 def fail(message):
@@ -34,6 +42,8 @@ def check_python():
 
 def check_disk(folder):
     """Refuse to begin what cannot be finished."""
+    if not folder.is_dir():
+        fail(f"{folder} does not exist; make it, or set VENV to a place in a folder that does")
     free = shutil.disk_usage(folder).free // 2**20
     if free < DISK_MB:
         fail(f"{free} MB free in {folder}; the environment needs {DISK_MB} MB. Free some space or set VENV=/elsewhere")
@@ -55,15 +65,12 @@ def build_backend(lock):
     return "setuptools"
 
 
-def run(step, command, env=None):
+def run(step, command, advice, env=None):
     """One step with its progress shown; a failure says what to do."""
     print(f"environment: {step}", flush=True)
     result = subprocess.run(command, env=env)
     if result.returncode:
-        fail(
-            f"{step} failed (exit code {result.returncode}). If the network or the package index was the cause, run "
-            "the same command again; if a hash differs, the lock file or the download was altered"
-        )
+        fail(f"{step} failed (exit code {result.returncode}). {advice}")
 
 
 def make(venv, locks):
@@ -71,10 +78,7 @@ def make(venv, locks):
     check_disk(venv.parent)
     begin = time.monotonic()
     print(f"environment: making {venv} from {', '.join(locks)} (one to three minutes)", flush=True)
-    try:
-        run("new virtual environment", [sys.executable, "-m", "venv", "--clear", str(venv)])
-    except FileNotFoundError:
-        fail("python3 cannot start; install Python 3.11 or newer")
+    run("new virtual environment", [sys.executable, "-m", "venv", "--clear", str(venv)], NO_VENV)
     python = str(venv / "bin" / "python")
     constraint = venv / "build-constraints.txt"
     constraint.write_text(build_backend(locks[0]) + "\n")
@@ -82,8 +86,8 @@ def make(venv, locks):
     only_wheels = ["--only-binary", ":all:", "--no-binary", "connection-pool"]
     for lock in locks:
         command = [python, "-m", "pip", "install", "--quiet", "--progress-bar", "off", "--require-hashes", *only_wheels]
-        run(f"packages of {lock}", [*command, "-r", lock], env)
-    run("checking that the packages fit together", [python, "-m", "pip", "check"])
+        run(f"packages of {lock}", [*command, "-r", lock], NO_PACKAGES, env)
+    run("checking that the packages fit together", [python, "-m", "pip", "check"], NO_FIT)
     home = subprocess.check_output([python, "-c", "import sysconfig; print(sysconfig.get_path('purelib'))"], text=True)
     Path(home.strip(), "recontrol-here.pth").write_text(f"{Path('src').resolve()}\n{Path.cwd()}\n")
     command_line = venv / "bin" / "recontrol"
