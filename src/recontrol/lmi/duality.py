@@ -71,6 +71,11 @@ def float_form(faced: Faced) -> FloatForm:
         ]
         entries, rows, columns = (np.array(part) for part in zip(*triples, strict=True)) if triples else ([], [], [])
         coefficients[c.name] = scipy.sparse.csc_array((entries, (rows, columns)), shape=(m * n, problem.size))
+        if c.name in faced.bases:
+            B = rational.to_float(faced.bases[c.name])
+            constants[c.name] = B.T @ constants[c.name] @ B
+            dense = coefficients[c.name].toarray().T.reshape(problem.size, m, n)
+            coefficients[c.name] = scipy.sparse.csc_array((B.T @ dense @ B).reshape(problem.size, m * n).T)
     costs = np.zeros(problem.size)
     for i, cost in problem.costs[1].items():
         costs[i] = float(ball.midpoint(cost)) * units[i]
@@ -186,7 +191,7 @@ def candidates(faced: Faced, needed: float | None, solver: str, time_limit: floa
             if not smaller or any(_equal(smaller, other) for other in seen):
                 continue
             seen.append(smaller)
-            narrowed = Faced(faced.problem, smaller)
+            narrowed = Faced(faced.problem, smaller, faced.near)
             with suppress(NotProvenError):
                 level.append((narrowed, interior_multipliers(narrowed, needed, solver, time_limit)))
         level = sorted((e for e in level if e[1].least > -SINGULAR), key=lambda e: -e[1].least)

@@ -11,16 +11,18 @@ import numpy as np
 from flint import fmpq
 
 from recontrol.exact import ball, rational
-from recontrol.lmi import duality, proof
+from recontrol.lmi import central, duality, proof
 from recontrol.lmi.duality import NotProvenError
 from recontrol.lmi.faces import Faced, given_faces
 from recontrol.lmi.problem import Problem
 from recontrol.lmi.proof import PRECISION
-from recontrol.lmi.repair import Multipliers, rationalise
+from recontrol.lmi.repair import Multipliers, projected, rationalise
 from recontrol.lmi.solvers import DEFAULT_TIME_LIMIT
 
 __all__ = ["Enclosure", "NotProvenError", "bound_by_multipliers", "bound_by_point", "enclose"]
 
+# Nearest point of the central path, relative; how many of its points are tried; unknowns times entries it is worth.
+NEAREST, TRIES, WORK = 1e-7, 4, 2_000_000
 # Held off by less, a point fails at the solver's own accuracy; by more, the enclosure is wide for nothing.
 BACK_OFFS = ("1e-9", "1e-8", "1e-7", "1e-6", "1e-5")
 
@@ -139,40 +141,54 @@ class _Search:
     by_multipliers: tuple[fmpq, dict[str, Any]] | None = None
     point: dict[str, Any] = field(default_factory=dict)
     failures: list[str] = field(default_factory=list)
+    tried: bool = False
 
     def step(self, back_off: str, common: dict[str, Any]) -> None:
-        """Try the sides that are still open at this back-off.
-
-        One solve gives both, unless the multipliers live on faces: then the perturbed problem has no solution.
-        """
+        """Try the sides that are still open at this back-off; one solve gives both where the multipliers are easy."""
         self.failures, off, whole = [], float(back_off), Faced(self.problem, {}, self.near)
         if not self.faced.faces and (found := self._solved(whole, off, off)):
             self._point(found[0], common)
             self._multipliers(whole, found[1], common)
         if self.by_point is None and (found := self._solved(whole, off, 0.0)):
             self._point(found[0], common)
-        for faced in self.narrowed:
-            if self.by_multipliers is None and (found := self._solved(faced, 0.0, off)):
-                self._multipliers(faced, found[1], common)
+        if self.by_multipliers is None and not self.tried:
+            self.tried = True
+            for faced, interior in self._candidates():
+                self._central(faced, interior, common)
+
+    def _central(self, faced: Faced, interior: Mapping[str, np.ndarray], common: dict[str, Any]) -> None:
+        """Multipliers from the central path: the nearest point of it that can be proven."""
+        found = self._solved(faced, 0.0, 0.0)
+        form = duality.float_form(faced)
+        work = self.problem.size * sum(M.size for M in form.constants.values())
+        if self.by_multipliers is not None or found is None or form.boxes or work > WORK:
+            return
+        unknowns = list(range(self.problem.size))
+        start = projected(form, central.blend(form, found[1], interior), unknowns)
+        size = max(abs(central.value(form, found[1])), 1e-12)
+        points = list(central.path(form, start, unknowns, NEAREST * size, size))
+        for width, Z in reversed(points[-TRIES:]):
+            if self.by_multipliers is not None:
+                break
+            conditioned = faced.conditioned(Z)
+            notes = {**common["notes"], "back_off": f"central path, gap {width:.1e}"}
+            self._multipliers(conditioned, conditioned.in_bases(Z), {**common, "notes": notes})
+
+    def _candidates(self) -> list[tuple[Faced, dict[str, np.ndarray]]]:
+        """Interior multipliers on the given faces, or on those that are found."""
+        start = Faced(self.problem, self.faced.faces, self.near)
+        try:
+            found = list(duality.candidates(start, None, self.solver, self.time_limit))
+        except NotProvenError as error:
+            self.failures.append(str(error))
+            return []
+        return [(faced, interior.multipliers) for faced, interior in found if interior.least > duality.SINGULAR]
 
     @cached_property
     def near(self) -> tuple[float, ...] | None:
         """Unknowns near the optimum, for units in which both sides can be held off by little."""
         found = self._solved(Faced(self.problem, {}), 0.0, 0.0)
         return tuple(found[0]) if found and np.isfinite(found[0]).all() else None
-
-    @cached_property
-    def narrowed(self) -> list[Faced]:
-        """The given faces, or those that are found."""
-        if self.faced.faces:
-            return [Faced(self.problem, self.faced.faces, self.near)]
-        try:
-            found = [f for f, _ in duality.candidates(self.faced, None, self.solver, self.time_limit)]
-            found = [Faced(self.problem, f.faces, self.near) for f in found]
-        except NotProvenError as error:
-            self.failures.append(str(error))
-            return []
-        return found[1:]
 
     def _solved(self, faced: Faced, margin: float, dual: float) -> tuple[np.ndarray, dict[str, np.ndarray]] | None:
         try:

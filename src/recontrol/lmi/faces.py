@@ -10,7 +10,7 @@ Source: facial reduction, Borwein and Wolkowicz, J. Austral. Math. Soc. (Series 
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field, replace
 from fractions import Fraction
 from functools import cached_property
 from typing import Any
@@ -29,6 +29,8 @@ Faces = Mapping[str, np.ndarray]
 WIDE = 1e3
 # Diagonal entries that vanish at a point are taken as this share of their terms.
 SMALL = 1e-4
+# Bits of numerator or denominator beyond which a basis is noise that was taken for fractions.
+SIMPLE = 128
 
 
 @dataclass(frozen=True)
@@ -36,12 +38,14 @@ class Faced:
     """The conditions of a problem restricted to faces: forms W' M W, their units, and the way back Z = W Y W'.
 
     ``near``, floats of all unknowns in original units, rescales unknowns and rows to be of order one there. A proof may
-    use any units; the problem's own, which must not depend on its answer, stay for what is reported.
+    use any units; the problem's own, which must not depend on its answer, stay for what is reported. ``bases`` goes one
+    step further: scaled multipliers are B Y B' with B (r, r) exact, and Y near the identity survives rounding.
     """
 
     problem: Problem
     faces: Faces
     near: tuple[float, ...] | None = None
+    bases: Mapping[str, np.ndarray] = field(default_factory=dict)
 
     @cached_property
     def forms(self) -> dict[str, AffineMatrix]:
@@ -73,6 +77,34 @@ class Faced:
             largest = max(map(abs, (self.near or ())[first : first + v.size]))
             size = [max(largest, SMALL * float(rational.to_float(u))) for u in out[first : first + v.size]]
             out[first : first + v.size] = [scaling.power_of_two(x) for x in size]
+        return out
+
+    def unscaled(self, name: str, Y: np.ndarray) -> np.ndarray:
+        """Multiplier of the restricted condition in original units, S B Y B' S, for an exact symmetric Y."""
+        S = rational.diagonal(self.row_units[name])
+        if name in self.bases:
+            S = S @ self.bases[name]
+        return S @ Y @ S.T
+
+    def conditioned(self, multipliers: Mapping[str, np.ndarray]) -> Faced:
+        """These conditions in bases where the scaled float ``multipliers`` are the identity, to thirty bits."""
+        bases = {}
+        for name, Z in multipliers.items():
+            if Z.shape[0] == Z.shape[1] == self.forms[name].shape[0] and Z.size:
+                values, vectors = np.linalg.eigh((Z + Z.T) / 2)
+                if values[0] <= 0:
+                    continue
+                root = vectors * np.sqrt(values / values[-1])
+                mantissa, exponent = np.frexp(root)
+                bases[name] = rational.from_float(np.ldexp(np.round(mantissa * 2**30), exponent - 30))
+        return replace(self, bases=bases)
+
+    def in_bases(self, multipliers: Mapping[str, np.ndarray]) -> dict[str, np.ndarray]:
+        """Scaled float multipliers Z as Y with Z = B Y B'."""
+        out = dict(multipliers)
+        for name, basis in self.bases.items():
+            B = rational.to_float(basis)
+            out[name] = np.linalg.solve(B, np.linalg.solve(B, multipliers[name]).T)
         return out
 
     def lifted(self, name: str, Y: np.ndarray) -> np.ndarray:
@@ -130,7 +162,8 @@ def _complement(N: np.ndarray, Z: np.ndarray, row_units: list[fmpq], tolerance: 
     _, _, order = scipy.linalg.qr(basis, pivoting=True)
     echelon = np.linalg.solve(basis[:, order[:k]], basis)
     exact = np.array([[_recognised(x, tolerance) for x in row] for row in echelon], dtype=object)
-    return complement(exact.T)
+    W = complement(exact.T)
+    return W if all(x.height_bits() <= SIMPLE for x in W.flat) else None
 
 
 def _recognised(x: float, tolerance: float) -> fmpq:

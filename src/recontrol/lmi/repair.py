@@ -66,46 +66,66 @@ def rationalise(faced: Faced, scaled: Mapping[str, np.ndarray], decimals: int) -
     slack = {name: unknowns for name, unknowns in slack_conditions(problem).items() if name not in faced.faces}
     absorbed = set(problem.unknown_boxes).union(*slack.values()) if slack else set(problem.unknown_boxes)
     equations = [i for i in range(problem.size) if i not in absorbed]
-    scaled = _projected(float_form(faced), {n: Z for n, Z in scaled.items() if n not in slack}, equations)
+    unboxed = [i for i in range(problem.size) if i not in problem.unknown_boxes]
+    scaled = projected(float_form(faced), dict(scaled), unboxed)
     exact: dict[str, np.ndarray] = {}
     for c in problem.named:
         if c.name in slack:
             continue
         size = faced.forms[c.name].shape
         rounded = rational.rounded(scaled[c.name], decimals) if min(size) else rational.zeros(*size)
-        exact[c.name] = rounded if c.is_equality else _unscaled(rounded, faced.row_units[c.name])
+        exact[c.name] = rounded if c.is_equality else faced.unscaled(c.name, rational.symmetric_part(rounded))
     if equations:
         _repair(faced, exact, equations)
     return Multipliers({name: faced.lifted(name, Y) for name, Y in exact.items()}, tuple(slack))
 
 
-def _projected(form: FloatForm, Z: dict[str, np.ndarray], equations: list[int]) -> dict[str, np.ndarray]:
-    """Float multipliers closer to the equations, moved by Z Y Z with Y in the span of the coefficients.
+def projected(form: FloatForm, Z: dict[str, np.ndarray], equations: list[int]) -> dict[str, np.ndarray]:
+    """Float multipliers closer to the equations, Z = L L' moved by the shortest L Y L' that meets them.
 
-    In this metric, that of interior-point methods, a step relative to Z is short, so definiteness survives.
+    In this metric, that of interior-point methods, a step is short relative to Z, so definiteness survives.
     """
-    if not equations:
-        return Z
-    names = [n for n, M in Z.items() if M.size]
+    names = [n for n, M in Z.items() if M.size] if equations else []
     F = {n: form.coefficients[n][:, equations].toarray().T.reshape(len(equations), *Z[n].shape) for n in names}
-    for _ in range(PROJECTIONS):
-        residual = form.costs[equations] - sum(np.einsum("kij,ij->k", F[n], Z[n]) for n in names)
-        moves = {n: F[n] if n in form.equalities else Z[n] @ F[n] @ Z[n] for n in names}
-        gram = sum(np.einsum("kij,lij->kl", F[n], moves[n], optimize=True) for n in names)
-        size = np.sqrt(np.maximum(np.diag(gram), 1e-300))
-        y = np.linalg.lstsq(gram / np.outer(size, size), residual / size, rcond=1e-14)[0] / size
-        step = {n: np.einsum("k,kij->ij", y, moves[n]) for n in names}
-        moved = {n: Z[n] + (d if n in form.equalities else (d + d.T) / 2) for n, d in step.items()}
-        left = form.costs[equations] - sum(np.einsum("kij,ij->k", F[n], moved[n]) for n in names)
-        if not np.linalg.norm(left) < np.linalg.norm(residual):
+    for _ in range(PROJECTIONS if names else 0):
+        residual = _residual(form, F, Z, equations)
+        roots = {n: (np.eye(len(Z[n])), np.eye(Z[n].shape[1])) if n in form.equalities else _root(Z[n]) for n in names}
+        rows = np.hstack([(roots[n][0].T @ F[n] @ roots[n][1]).reshape(len(equations), -1) for n in names])
+        short, _ = shortest(rows, residual)
+        moved, start = dict(Z), 0
+        for n in names:
+            Y = short[start : start + Z[n].size].reshape(Z[n].shape)
+            start += Z[n].size
+            moved[n] = Z[n] + roots[n][0] @ (Y if n in form.equalities else (Y + Y.T) / 2) @ roots[n][1].T
+        if not np.linalg.norm(_residual(form, F, moved, equations)) < np.linalg.norm(residual):
             break
-        Z = {**Z, **moved}
+        Z = moved
     return Z
 
 
-def _unscaled(Z: np.ndarray, row_units: list[fmpq]) -> np.ndarray:
-    s = rational.diagonal(row_units)
-    return s @ rational.symmetric_part(Z) @ s
+def shortest(rows: np.ndarray, right: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """The shortest x with rows @ x = right, and an orthonormal basis Q of the span of the rows (as columns).
+
+    Dependent rows are left out.
+    """
+    import scipy.linalg
+
+    size = np.maximum(np.linalg.norm(rows, axis=1), 1e-300)
+    Q, R, order = scipy.linalg.qr((rows / size[:, None]).T, mode="economic", pivoting=True)
+    pivots = np.abs(np.diag(R))
+    kept = int((pivots > 1e-13 * pivots[0]).sum())
+    Q, R, order = Q[:, :kept], R[:kept, :kept], order[:kept]
+    return Q @ scipy.linalg.solve_triangular(R.T, (right / size)[order], lower=True), Q
+
+
+def _residual(form: FloatForm, F: dict[str, np.ndarray], Z: dict[str, np.ndarray], equations: list[int]) -> np.ndarray:
+    return form.costs[equations] - sum(np.einsum("kij,ij->k", F[n], Z[n]) for n in F)
+
+
+def _root(Z: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    values, vectors = np.linalg.eigh(Z)
+    L = vectors * np.sqrt(np.maximum(values, 0.0))
+    return L, L
 
 
 def _repair(faced: Faced, Z: dict[str, np.ndarray], equations: list[int]) -> None:

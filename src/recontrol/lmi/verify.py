@@ -18,7 +18,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from flint import arb, ctx, fmpq
+from flint import arb, ctx, fmpq, fmpz
 
 SCHEMA = "recontrol/certificate/1"
 POINT = ("definite", "membership", "box")
@@ -50,7 +50,7 @@ def number(entry: Any) -> Any:
     try:
         if isinstance(entry, str):
             p, _, q = entry.partition("/")
-            return fmpq(int(p), int(q or 1))
+            return fmpq(fmpz(p), fmpz(q or "1"))  # int() refuses numbers of many digits
         mid, rad = (_dyadic(number(entry[key])) for key in ("mid", "rad"))
         return arb(mid, rad)
     except (ValueError, TypeError, KeyError, ZeroDivisionError) as error:
