@@ -13,7 +13,7 @@ from recontrol.exact.polynomial import PRECISION, charpoly, left_roots, reflect,
 from recontrol.exact.rational import rounded
 
 from ..recipe import CONTROL_WEIGHT, Plant, controller_gain, estimator_poles, lqr_spectrum, plant_of
-from .support import printed_gain, routh_margins
+from .support import printed_gain, printed_gain_box, routh_margins
 
 DECAY = fmpq(1, 10)
 
@@ -91,7 +91,7 @@ def s22_bryson(model: Any, data: Any) -> Result:
     """Diagonal of Q over the whole box of (52): one entry is negative throughout."""
     plant = plant_of(model, "yaw")
     with precision(PRECISION):
-        K_box = to_ball(plant.A[:1]) - data.ball("A_c")[:1]
+        K_box = printed_gain_box(data)
     diagonal = inverse_lqr(plant, K_box)
     evidence = {
         "diagonal of Q at the decimals of (52)": inverse_lqr(plant, printed_gain(data)),

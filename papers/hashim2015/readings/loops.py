@@ -11,7 +11,7 @@ from recontrol.exact.ball import precision
 from recontrol.exact.polynomial import PRECISION, charpoly
 
 from ..recipe import Plant, plant_of
-from .support import full_loop, printed_gain, routh_margins, zeros
+from .support import full_loop, printed_gain, printed_gain_box, routh_margins, zeros
 
 HALF = 4
 
@@ -28,11 +28,11 @@ def _parts(model: Any, synthesis: Any) -> tuple[Plant, np.ndarray, np.ndarray, n
     return plant_of(model, "yaw"), balls["K"], balls["L"]["typed4"], balls["L"]["exact"]
 
 
-def eq55_11(model: Any, synthesis: Any) -> np.ndarray:
-    """A - BK as (26) has it."""
-    plant, K, *_ = _parts(model, synthesis)
+def eq55_11(model: Any, data: Any) -> np.ndarray:
+    """A - BK as (26) has it, for every K in the box of (52)."""
+    plant = plant_of(model, "yaw")
     with precision(PRECISION):
-        return _embed(plant.A - plant.B @ K, 0, 0)
+        return _embed(plant.A - plant.B @ printed_gain_box(data), 0, 0)
 
 
 def eq55_11_twice(model: Any, synthesis: Any, data: Any) -> Result:
@@ -61,7 +61,7 @@ def eq55_12_K(model: Any, synthesis: Any) -> np.ndarray:
 def eq55_e16(model: Any, data: Any) -> Result:
     """K2(1) from (52) and (6), anywhere in the box."""
     plant = plant_of(model, "yaw")
-    box = plant.A[:1] - data.ball("A_c")[:1]
+    box = printed_gain_box(data)
     evidence = {"K2(1) of (65) and its half unit (the intervals touch)": [data["K2"][0, 0], data.half("K2")[0, 0]]}
     return Result(_embed(plant.B @ box, 0, HALF), evidence=evidence)
 
