@@ -22,6 +22,7 @@ from .support import (
     printed_reduced,
     reduced_loop,
     routh_margins,
+    used,
 )
 
 
@@ -75,9 +76,10 @@ def eq65_point(data: Any) -> np.ndarray:
     return printed_gain(data)[:, 1:]
 
 
-def eq65_K(synthesis: Any) -> np.ndarray:
+def eq65_K(synthesis: Any) -> Result:
     """K2 of K.q1."""
-    return synthesis["gains"]["yaw"]["balls"]["K"][:, 1:]
+    numbers = "the right version: (66) to (69) follow from the unrounded gain"
+    return Result(synthesis["gains"]["yaw"]["balls"]["K"][:, 1:], evidence=used(numbers))
 
 
 def _typed(synthesis: Any, name: str) -> np.ndarray:
@@ -94,10 +96,11 @@ def eq67_typed4(synthesis: Any) -> np.ndarray:
     return _typed(synthesis, "B").T
 
 
-def eq67_shape(model: Any) -> Size:
+def eq67_shape(model: Any) -> Result:
     """One row for each state of the compensator, one column for the output."""
     plant = plant_of(model, "yaw")
-    return Size(plant.n - 1, plant.C.shape[0])
+    numbers = "the right version: (66) to (69) belong to one compensator"
+    return Result(Size(plant.n - 1, plant.C.shape[0]), evidence=used(numbers))
 
 
 def eq68_print(data: Any) -> np.ndarray:
@@ -107,7 +110,7 @@ def eq68_print(data: Any) -> np.ndarray:
 
 def eq68_K(synthesis: Any) -> np.ndarray:
     """-K2 of K.q1."""
-    return -eq65_K(synthesis)
+    return -synthesis["gains"]["yaw"]["balls"]["K"][:, 1:]
 
 
 def eq69_typed4(synthesis: Any) -> np.ndarray:

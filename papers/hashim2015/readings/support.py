@@ -10,6 +10,13 @@ from flint import fmpq, fmpq_poly
 from recontrol.exact.ball import to_ball
 from recontrol.exact.polynomial import monic, routh_column
 
+UNUSED = "none depends on it"
+
+
+def used(numbers: str, correct: str = "") -> dict[str, str]:
+    """Evidence for the errata sheet: whether the paper's own numbers used the right version, and the correct form."""
+    return {"correct form": correct, "numbers": numbers} if correct else {"numbers": numbers}
+
 
 def descending(row: np.ndarray) -> fmpq_poly:
     """Polynomial from coefficients printed in descending powers, (1, n+1)."""
