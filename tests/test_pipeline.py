@@ -33,7 +33,9 @@ def test_second_run_has_nothing_to_do(toy):
 
 def test_edit_of_an_imported_module_reruns_exactly_what_depends_on_it(toy):
     toy.edit("papers/toy2024/helper.py", "FACTOR = 5", "FACTOR = 5  # halves")
-    ran = {message for message in jobs(toy.snakemake("all").stdout) if message.startswith("toy2024")}
+    output = toy.snakemake("all").stdout
+    assert "look at results/report/index.html" in output
+    ran = {message for message in jobs(output) if message.startswith("toy2024")}
     assert ran == {
         "toy2024: synthesis gain",
         "toy2024: synthesis other",
