@@ -28,7 +28,7 @@ rule ensemble:
         chunks=graph.chunks(config["ensemble_chunks"]),
         code=graph.code("campaign"),
     output:
-        "results/{paper}/ensemble/{name}.json",
+        multiext("results/{paper}/ensemble/{name}", ".json", ".svg", ".pdf", ".png", ".csv"),
     log:
         "run/log/{paper}/ensemble/{name}.log",
     params:
@@ -45,7 +45,7 @@ rule merge:
         chunks=graph.chunks(config["campaign_chunks"]),
         code=graph.code("campaign"),
     output:
-        "results/{paper}/campaign/{name}.json",
+        multiext("results/{paper}/campaign/{name}", ".json", ".svg", ".pdf", ".png", ".csv"),
     log:
         "run/log/{paper}/campaign/{name}.log",
     params:

@@ -8,6 +8,7 @@ Chunk k always draws the same members, whatever the size of the campaign and the
 from __future__ import annotations
 
 import argparse
+import tempfile
 from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
@@ -75,7 +76,11 @@ def merge(key: str, name: str, chunks: int, target: str) -> None:
         for outcome in merged:
             merged[outcome] = merged[outcome].merge(Sketch.from_json(content["outcomes"][outcome]))
     bounds = _bounds(paper, name)
-    rows = {outcome: describe(sketch, bounds.get(outcome)) for outcome, sketch in merged.items()}
+    rows = {
+        outcome: describe(sketch, bounds.get(outcome))
+        | {"unit": entry.outcomes[outcome].unit, "what": entry.outcomes[outcome].what}
+        for outcome, sketch in merged.items()
+    }
     content = {
         "paper": key,
         "campaign": name,
@@ -84,8 +89,23 @@ def merge(key: str, name: str, chunks: int, target: str) -> None:
         "chunk": size,
         "outcomes": rows,
     }
-    path = distribution_file(key, name, target)
-    job.publish("campaign", key, name, {path: dumps(content).encode()}, [*files, *_earlier(paper)])
+    contents = {distribution_file(key, name, target): dumps(content).encode(), **_pictures(content, target)}
+    job.publish("campaign", key, name, contents, [*files, *_earlier(paper)])
+
+
+def _pictures(content: Mapping[str, Any], target: str) -> dict[Path, bytes]:
+    """The files of the distribution figure."""
+    from recontrol import plotting
+    from recontrol.campaign.figure import draw
+    from recontrol.pipeline.figure import curves_to_csv
+
+    key, name = content["paper"], content["campaign"]
+    drawing, curves = draw(content)
+    files = {distribution_file(key, name, target, "csv"): curves_to_csv(curves, f"campaign {key}/{name}")}
+    with tempfile.TemporaryDirectory() as folder:
+        for path in plotting.save(drawing, Path(folder, name)):
+            files[distribution_file(key, name, target, path.suffix[1:])] = path.read_bytes()
+    return files
 
 
 def describe(sketch: Sketch, bound: Any = None) -> dict[str, Any]:

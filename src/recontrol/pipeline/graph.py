@@ -31,8 +31,9 @@ class Graph:
         return lambda wildcards: [name for step in earlier for name in self.stage(wildcards.paper, step)]
 
     def ensembles(self, keys: Iterable[str], target: str = "ensemble") -> list[str]:
-        """Merged distributions of the campaigns of some papers."""
-        return [str(distribution_file(k, name, target)) for k in keys for name in self.papers[k].file.campaigns]
+        """Merged distributions of the campaigns of some papers, and their pictures."""
+        names = [(key, name) for key in keys for name in self.papers[key].file.campaigns]
+        return [str(distribution_file(*name, target, kind)) for name in names for kind in ("json", *FIGURE_FORMATS)]
 
     @staticmethod
     def chunks(count: int) -> Callable[[Any], list[str]]:

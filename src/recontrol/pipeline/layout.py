@@ -27,9 +27,9 @@ def chunk_file(key: str, campaign: str, chunk: int) -> Path:
     return Path("results", key, "ensemble", campaign, f"chunk-{chunk:05d}.json")
 
 
-def distribution_file(key: str, campaign: str, target: str) -> Path:
-    """Merged distributions: target `ensemble` (every run) or `campaign` (the large one)."""
-    return Path("results", key, target, f"{campaign}.json")
+def distribution_file(key: str, campaign: str, target: str, suffix: str = "json") -> Path:
+    """Merged distributions, or their picture: target `ensemble` (every run) or `campaign` (the large one)."""
+    return Path("results", key, target, f"{campaign}.{suffix}")
 
 
 def reference_file(folder: Path, figure: str) -> Path:
