@@ -33,6 +33,12 @@ lint: test-environment ## the linters alone
 unit: test-environment ## the tests alone
 	@VENV=$(VENV)-test tools/test.sh unit
 
+faults: test-environment ## every fault test at full size; writes docs/reliability.md (half an hour)
+	@PYTHONPATH=src:. $(VENV)-test/bin/python tools/reliability.py
+
+matrix: test-environment ## all papers under several environments; writes docs/reproducibility.md (an hour)
+	@PYTHONPATH=src:. $(VENV)-test/bin/python tools/matrix.py
+
 schemas: test-environment ## JSON Schemas of paper.yaml and claims.yaml for editors
 	@$(VENV)-test/bin/python tools/schemas.py
 

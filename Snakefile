@@ -55,5 +55,10 @@ rule all:
         graph.ensembles(graph.papers),
 
 
+onsuccess:
+    if Path("results/report/index.html").exists():
+        print("recontrol: look at results/report/index.html", file=sys.stderr)
+
+
 onerror:
     shell("python -m recontrol.pipeline salvage " + " ".join(graph.papers) + " >&2")

@@ -11,6 +11,7 @@ from conftest import ROOT, Project, make_project
 
 from recontrol import paper as papers
 from recontrol.claims import schema, sensitivity
+from recontrol.report import present
 
 BUILT = os.environ.get("RECONTROL_BUILT", "")
 pytestmark = pytest.mark.skipif(not BUILT, reason="RECONTROL_BUILT names no finished run (tools/test.sh makes one)")
@@ -49,6 +50,16 @@ def test_verdicts_are_those_of_the_review_and_none_failed(key):
         assert record["verdict"] in ("unspecified",) or record["strength"] in ("exact", "ball", "float"), record["id"]
         for finding in record["findings"]:
             assert finding["source"], f"{record['id']}: {finding['reading']} has no source line"
+
+
+def test_every_erratum_of_the_first_paper_says_what_its_numbers_used():
+    """The errata sheet gives place, print, correct form or value, proof, and this."""
+    from recontrol.report.collect import Paper
+
+    claims = [claim for claim in Paper(Path(BUILT), "hashim2015").claims if claim.verdict == "erratum"]
+    assert len(claims) > 30
+    assert not [claim.id for claim in claims if not claim.numbers_used]
+    assert not [claim.id for claim in claims if not present.correction(claim)]
 
 
 @pytest.mark.parametrize("key", KEYS)

@@ -12,6 +12,7 @@ import pytest
 sys.path.insert(0, str(Path(__file__).parent / "report"))
 
 import fake
+import test_papers
 
 from recontrol import cli, contract
 from recontrol.errors import PaperError
@@ -108,6 +109,9 @@ def test_a_new_folder_passes_the_contract_and_says_what_to_fill_in(run, tmp_path
     folder = tmp_path / "papers" / "smith2024"
     assert "smith2024" in (folder / "paper.yaml").read_text()
     assert not [path for path in folder.rglob("*") if path.is_file() and "KEY" in path.read_text()]
+    for name, contract_test in vars(test_papers).items():
+        if name.startswith("test_"):
+            contract_test(folder)
 
 
 @pytest.mark.parametrize(

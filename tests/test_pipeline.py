@@ -10,6 +10,7 @@ import time
 
 import pytest
 
+from recontrol import skeleton
 from recontrol.errors import ArtifactError, RecontrolError
 from recontrol.pipeline import closure, guard, store
 
@@ -32,7 +33,9 @@ def test_second_run_has_nothing_to_do(toy):
 
 def test_edit_of_an_imported_module_reruns_exactly_what_depends_on_it(toy):
     toy.edit("papers/toy2024/helper.py", "FACTOR = 5", "FACTOR = 5  # halves")
-    ran = {message for message in jobs(toy.snakemake("all").stdout) if message.startswith("toy2024")}
+    output = toy.snakemake("all").stdout
+    assert "look at results/report/index.html" in output
+    ran = {message for message in jobs(output) if message.startswith("toy2024")}
     assert ran == {
         "toy2024: synthesis gain",
         "toy2024: synthesis other",
@@ -143,16 +146,10 @@ def test_two_clean_runs_give_identical_bytes(fresh_toy, built_toy):
 
 
 def test_new_folder_adds_its_own_jobs_and_no_others(toy):
-    source, target = toy.folder / "papers/toy2024", toy.folder / "papers/copy2025"
-    target.mkdir()
-    for path in source.rglob("*"):
-        if path.is_file():
-            copy = target / path.relative_to(source)
-            copy.parent.mkdir(exist_ok=True)
-            copy.write_bytes(path.read_bytes())
-    toy.edit("papers/copy2025/paper.yaml", "key: toy2024", "key: copy2025")
+    """The folder is a new skeleton, which runs as it is and agrees with its own review."""
+    skeleton.create(toy.folder, "smith2024")
     ran = jobs(toy.snakemake("all").stdout)
-    assert {message for message in ran if message.startswith("copy2025")}
+    assert {"smith2024: verdicts", "smith2024: figure decay", "smith2024: review"} <= ran
     assert not {message for message in ran if message.startswith("toy2024")}
 
 

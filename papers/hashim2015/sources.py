@@ -6,13 +6,12 @@ from typing import Any
 
 import numpy as np
 
-from recontrol.exact.ball import to_ball
 from recontrol.exact.rational import identity, zeros
 from recontrol.lmi import loops
 
 from . import analysis, recipe
 from .model import AXES, model, plants
-from .readings.support import first_state, printed_reduced, reduced_loop
+from .readings.support import first_state, printed_gain_box, printed_reduced, reduced_loop
 from .synthesis.gains import gains
 
 CONTROLLER_BOX = "box of (52)"
@@ -29,9 +28,9 @@ def problem_data(data: Any, case: str) -> dict[str, np.ndarray]:
     found = plants(data)
     yaw = recipe.Plant(**found["yaw"])
     if case == CONTROLLER_BOX:
-        return {"K": _gain_box(yaw, data), "a": yaw.A[:1]}
+        return {"K": printed_gain_box(data), "a": yaw.A[:1]}
     if case == FULL_BOX:
-        K, L = _gain_box(yaw, data), data.ball("L")
+        K, L = printed_gain_box(data), data.ball("L")
         return {"M": np.block([[yaw.A - yaw.B @ K, yaw.B @ K], [zeros(yaw.n), yaw.A - L @ yaw.C]])}
     if case == REDUCED_BOX:
         return _reduced_box(yaw, data)
@@ -43,11 +42,6 @@ def problem_data(data: Any, case: str) -> dict[str, np.ndarray]:
     if plant is None:
         return {}
     return {"A": plant["A"], "B": plant["B"], "Q": plant["C"].T @ plant["C"], "R": identity(1)}
-
-
-def _gain_box(plant: recipe.Plant, data: Any) -> np.ndarray:
-    """K (1, 4) of (52) and (6), the whole rounding box."""
-    return to_ball(plant.A[:1]) - data.ball("A_c")[:1]
 
 
 def _reduced_box(plant: recipe.Plant, data: Any) -> dict[str, np.ndarray]:

@@ -58,6 +58,16 @@ def gain_intersection(model: Any, data: Any, K: np.ndarray) -> np.ndarray:
     return out
 
 
+def sign_overlap(model: Any, data: Any) -> dict[str, np.ndarray]:
+    """Width shared by the three enclosures of each entry of L_r, K of (52), for either sign of (46); negative: none."""
+    out = {}
+    for name, sign in (("derived sign", 1), ("printed sign", -1)):
+        sets = estimator_gain_sets(model, data, gain_box(data), sign)
+        pairs = [intersect([column[i] for column in sets]) for i in range(3)]
+        out[name] = np.array([[high - low] for low, high in pairs], dtype=object)
+    return out
+
+
 def propagate(model: Any, K: np.ndarray, L: np.ndarray) -> dict[str, Any]:
     """What the sets of K and L_r imply for the estimator poles, B_r and D_r."""
     plant = recipe.plant_of(model, "yaw")
@@ -70,7 +80,7 @@ def propagate(model: Any, K: np.ndarray, L: np.ndarray) -> dict[str, Any]:
 def enclosures(data: Any, model: Any, synthesis: Any) -> dict[str, Any]:
     """Section 6.4 for K of (52) and for K.q1."""
     out: dict[str, Any] = {"Lr_enclosure": {}, "Br_enclosure": {}, "Dr_enclosure": {}, "error_pole_enclosure": {}}
-    for name, K in (("K of (52)", gain_box(model, data)), ("K.q1", synthesis["gains"]["yaw"]["balls"]["K"])):
+    for name, K in (("K of (52)", gain_box(data)), ("K.q1", synthesis["gains"]["yaw"]["balls"]["K"])):
         L = gain_intersection(model, data, K)
         implied = propagate(model, K, L)
         out["Lr_enclosure"][name] = L
@@ -84,7 +94,7 @@ def box_stability(data: Any, model: Any) -> dict[str, str]:
     """Hurwitz over the whole rounding boxes of (52) and of (54), hence the full-order loop by separation."""
     plant = recipe.plant_of(model, "yaw")
     with precision(PRECISION):
-        controller = is_hurwitz(charpoly(to_ball(plant.A) - plant.B @ gain_box(model, data)))
+        controller = is_hurwitz(charpoly(to_ball(plant.A) - plant.B @ gain_box(data)))
         estimator = is_hurwitz(charpoly(to_ball(plant.A) - data.ball("L") @ plant.C))
     both = controller and estimator
     words = {"(52)": controller, "(54)": estimator, "full-order loop, by separation": both}
@@ -128,13 +138,14 @@ def quantities(data: Any, model: Any, synthesis: Any) -> dict[str, Any]:
     return {
         **stability(data, model, synthesis),
         **enclosures(data, model, synthesis),
-        "inverse_lqr_diagonal": inverse_lqr(plant, gain_box(model, data)),
+        "inverse_lqr_diagonal": inverse_lqr(plant, gain_box(data)),
         "box_stability": box_stability(data, model),
         "estimator_controller_ratio": speed_ratios(plant, data),
         "ace_input_rank": {case: fmpq(ace_rank(data, case)) for case in ("ace-print", "ace-one")},
         "ace_zero_eigenvalue": ace_null_vector_holds(plant),
         "printed_loop_coefficient": negative_coefficient(data, model),
         "kharitonov_fraction": kharitonov_fraction(model, data),
+        "Lr_overlap": sign_overlap(model, data),
         "separation_distance": separation_distance(model, data, synthesis),
         "pitch_zero_error_pole": pitch_error_pole_is_zero(),
     }

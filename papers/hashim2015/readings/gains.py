@@ -13,7 +13,7 @@ from recontrol.exact.polynomial import PRECISION, charpoly, left_roots, reflect,
 from recontrol.exact.rational import rounded
 
 from ..recipe import CONTROL_WEIGHT, Plant, controller_gain, estimator_poles, lqr_spectrum, plant_of
-from .support import printed_gain, routh_margins
+from .support import printed_gain, printed_gain_box, routh_margins, used
 
 DECAY = fmpq(1, 10)
 
@@ -25,9 +25,10 @@ def eq52_row1(model: Any, synthesis: Any) -> np.ndarray:
         return plant.A - plant.B @ synthesis["gains"]["yaw"]["balls"]["K"]
 
 
-def eq52_size(model: Any) -> Size:
+def eq52_size(model: Any) -> Result:
     """Second row of a matrix of order n."""
-    return Size(1, plant_of(model, "yaw").n)
+    numbers = "the right version: (53) has the eigenvalues of the completed matrix"
+    return Result(Size(1, plant_of(model, "yaw").n), evidence=used(numbers))
 
 
 def _upper(poles: list[Any]) -> np.ndarray:
@@ -91,11 +92,12 @@ def s22_bryson(model: Any, data: Any) -> Result:
     """Diagonal of Q over the whole box of (52): one entry is negative throughout."""
     plant = plant_of(model, "yaw")
     with precision(PRECISION):
-        K_box = to_ball(plant.A[:1]) - data.ball("A_c")[:1]
+        K_box = printed_gain_box(data)
     diagonal = inverse_lqr(plant, K_box)
     evidence = {
         "diagonal of Q at the decimals of (52)": inverse_lqr(plant, printed_gain(data)),
         "spectral polynomial of C'C": np.array((plant.b * reflect(plant.b)).coeffs(), dtype=object),
+        **used("(52) does not come from (18), (19)", r"no diagonal $Q \ge 0$ with $R = 1$ gives (52)"),
     }
     margins = {f"q{i}": q for i, q in enumerate(diagonal, start=1)}
     return Result(Statement(margins, strict=False), evidence=evidence)

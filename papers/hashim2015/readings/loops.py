@@ -11,9 +11,10 @@ from recontrol.exact.ball import precision
 from recontrol.exact.polynomial import PRECISION, charpoly
 
 from ..recipe import Plant, plant_of
-from .support import full_loop, printed_gain, routh_margins, zeros
+from .support import UNUSED, full_loop, printed_gain, printed_gain_box, routh_margins, used, zeros
 
 HALF = 4
+CURVES = "no printed number comes from (55); curves that did would have the gain fed back twice"
 
 
 def _embed(block: np.ndarray, row: int, column: int) -> np.ndarray:
@@ -28,11 +29,12 @@ def _parts(model: Any, synthesis: Any) -> tuple[Plant, np.ndarray, np.ndarray, n
     return plant_of(model, "yaw"), balls["K"], balls["L"]["typed4"], balls["L"]["exact"]
 
 
-def eq55_11(model: Any, synthesis: Any) -> np.ndarray:
-    """A - BK as (26) has it."""
-    plant, K, *_ = _parts(model, synthesis)
+def eq55_11(model: Any, data: Any) -> Result:
+    """A - BK as (26) has it, for every K in the box of (52)."""
+    plant = plant_of(model, "yaw")
     with precision(PRECISION):
-        return _embed(plant.A - plant.B @ K, 0, 0)
+        found = _embed(plant.A - plant.B @ printed_gain_box(data), 0, 0)
+    return Result(found, evidence=used(CURVES, "$A - BK$, that is (52)"))
 
 
 def eq55_11_twice(model: Any, synthesis: Any, data: Any) -> Result:
@@ -61,8 +63,9 @@ def eq55_12_K(model: Any, synthesis: Any) -> np.ndarray:
 def eq55_e16(model: Any, data: Any) -> Result:
     """K2(1) from (52) and (6), anywhere in the box."""
     plant = plant_of(model, "yaw")
-    box = plant.A[:1] - data.ball("A_c")[:1]
+    box = printed_gain_box(data)
     evidence = {"K2(1) of (65) and its half unit (the intervals touch)": [data["K2"][0, 0], data.half("K2")[0, 0]]}
+    evidence |= used("the right version: (66) to (69) follow from the unrounded gain")
     return Result(_embed(plant.B @ box, 0, HALF), evidence=evidence)
 
 
@@ -71,10 +74,11 @@ def eq55_21() -> np.ndarray:
     return zeros(2 * HALF, 2 * HALF)
 
 
-def eq55_22(model: Any, data: Any) -> np.ndarray:
+def eq55_22(model: Any, data: Any) -> Result:
     """A - LC with (54), anywhere in its box."""
     plant = plant_of(model, "yaw")
-    return _embed(plant.A - data.ball("L") @ plant.C, HALF, HALF)
+    found = _embed(plant.A - data.ball("L") @ plant.C, HALF, HALF)
+    return Result(found, evidence=used(CURVES, "$A - LC$, whose second row begins with 1"))
 
 
 def eq55_22_typed4(model: Any, synthesis: Any) -> Result:
@@ -92,14 +96,14 @@ def eq55_22_exact(model: Any, synthesis: Any) -> np.ndarray:
         return _embed(plant.A - plant.B @ K - L @ plant.C, HALF, HALF)
 
 
-def eq56_size(model: Any) -> Size:
+def eq56_size(model: Any) -> Result:
     """Plant and estimator have n states each."""
-    return Size(2 * plant_of(model, "yaw").n, 1)
+    return Result(Size(2 * plant_of(model, "yaw").n, 1), evidence=used(UNUSED))
 
 
-def eq57_size(model: Any) -> Size:
+def eq57_size(model: Any) -> Result:
     """Plant and estimator have n states each."""
-    return Size(1, 2 * plant_of(model, "yaw").n)
+    return Result(Size(1, 2 * plant_of(model, "yaw").n), evidence=used(UNUSED))
 
 
 def eq57_val(model: Any, data: Any) -> np.ndarray:

@@ -14,7 +14,7 @@ from recontrol.exact.polynomial import PRECISION, real_roots
 
 from ..recipe import Plant, plant_of
 from .formulas import krylov
-from .support import descending, first_state
+from .support import UNUSED, descending, first_state, used
 
 FREQUENCIES = (10, 100)
 
@@ -47,9 +47,9 @@ def s21_D(model: Any, case: str) -> Identity:
     return Identity(plant.b // plant.a, plant.b * 0)
 
 
-def eq13_size(data: Any) -> Size:
+def eq13_size(data: Any) -> Result:
     """As many rows as (12) has states."""
-    return Size(data["A_roll"].shape[0], 1)
+    return Result(Size(data["A_roll"].shape[0], 1), evidence=used("none is printed for roll"))
 
 
 def s3_ctrb(model: Any, case: str) -> Statement:
@@ -64,15 +64,16 @@ def s3_obsv(model: Any, case: str) -> Statement:
     return Statement({"det^2": determinant(krylov(plant.A.T, plant.C.T)) ** 2})
 
 
-def eq28_premise(model: Any, case: str) -> Identity:
+def eq28_premise(model: Any, case: str) -> Result:
     """C of the axis against [1 0 ... 0]."""
     plant = plant_of(model, case)
-    return Identity(first_state(plant.n), plant.C)
+    evidence = used("the wrong version: (66) to (69) are the design for $y = x_1$", "$y = Cx$ with (8), (11), (14)")
+    return Result(Identity(first_state(plant.n), plant.C), evidence=evidence)
 
 
-def s3_pole_positive(model: Any) -> arb:
+def s3_pole_positive(model: Any) -> Result:
     """The unstable root of the denominator of (2)."""
-    return real_roots(plant_of(model, "pitch-tf").a)[-1]
+    return Result(real_roots(plant_of(model, "pitch-tf").a)[-1], evidence=used(UNUSED))
 
 
 def s3_pole_negative(model: Any) -> arb:
@@ -90,6 +91,7 @@ def s3_imag(model: Any) -> Result:
     plant = plant_of(model, "pitch-tf")
     poles = real_roots(plant.a)
     evidence = {"poles [1/s]": np.array(poles, dtype=object), "time constant [s]": 1 / poles[-1]}
+    evidence |= used(UNUSED, "one real pole in either half plane")
     return Result(Statement({"minus the square of the real part": plant.a[0]}, strict=False), evidence=evidence)
 
 
@@ -101,10 +103,11 @@ def s1_order(synthesis: Any, case: str) -> Statement:
     return Statement({"surplus": fmpq(surplus), "minus surplus": fmpq(-surplus)}, strict=False)
 
 
-def s1_sensors(synthesis: Any, case: str) -> Statement:
+def s1_sensors(synthesis: Any, case: str) -> Result:
     """Signals that (22) measures less those that (44) measures."""
     entry = synthesis["gains"][case]
-    return Statement({"sensors saved": fmpq(entry["full"]["exact"]["B"].shape[1] - entry["x1"]["exact"]["B"].shape[1])})
+    saved = fmpq(entry["full"]["exact"]["B"].shape[1] - entry["x1"]["exact"]["B"].shape[1])
+    return Result(Statement({"sensors saved": saved}), evidence=used(UNUSED, "fewer states, as many sensors"))
 
 
 def gain_at(A: np.ndarray, B: np.ndarray, C: np.ndarray, D: np.ndarray, frequency: int) -> arb:

@@ -8,13 +8,22 @@ import numpy as np
 from flint import arb, fmpq
 
 from recontrol.claims.values import Result, Size, Statement
-from recontrol.exact.ball import exact_midpoint, precision, to_ball
+from recontrol.exact.ball import exact_midpoint, precision
 from recontrol.exact.polynomial import PRECISION, charpoly, kharitonov_corners
 from recontrol.exact.rational import rounded
 
 from ..intervals import coefficient_polynomials, coefficient_range
 from ..recipe import partition, plant_of, reduced_matrices
-from .support import coefficient_margins, first_state, printed_gain, printed_reduced, reduced_loop, routh_margins
+from .support import (
+    coefficient_margins,
+    first_state,
+    printed_gain,
+    printed_gain_box,
+    printed_reduced,
+    reduced_loop,
+    routh_margins,
+    used,
+)
 
 
 def _block(model: Any, index: int) -> np.ndarray:
@@ -67,9 +76,10 @@ def eq65_point(data: Any) -> np.ndarray:
     return printed_gain(data)[:, 1:]
 
 
-def eq65_K(synthesis: Any) -> np.ndarray:
+def eq65_K(synthesis: Any) -> Result:
     """K2 of K.q1."""
-    return synthesis["gains"]["yaw"]["balls"]["K"][:, 1:]
+    numbers = "the right version: (66) to (69) follow from the unrounded gain"
+    return Result(synthesis["gains"]["yaw"]["balls"]["K"][:, 1:], evidence=used(numbers))
 
 
 def _typed(synthesis: Any, name: str) -> np.ndarray:
@@ -86,10 +96,11 @@ def eq67_typed4(synthesis: Any) -> np.ndarray:
     return _typed(synthesis, "B").T
 
 
-def eq67_shape(model: Any) -> Size:
+def eq67_shape(model: Any) -> Result:
     """One row for each state of the compensator, one column for the output."""
     plant = plant_of(model, "yaw")
-    return Size(plant.n - 1, plant.C.shape[0])
+    numbers = "the right version: (66) to (69) belong to one compensator"
+    return Result(Size(plant.n - 1, plant.C.shape[0]), evidence=used(numbers))
 
 
 def eq68_print(data: Any) -> np.ndarray:
@@ -99,7 +110,7 @@ def eq68_print(data: Any) -> np.ndarray:
 
 def eq68_K(synthesis: Any) -> np.ndarray:
     """-K2 of K.q1."""
-    return -eq65_K(synthesis)
+    return -synthesis["gains"]["yaw"]["balls"]["K"][:, 1:]
 
 
 def eq69_typed4(synthesis: Any) -> np.ndarray:
@@ -129,10 +140,10 @@ def intersect(balls: list[arb]) -> tuple[fmpq, fmpq]:
     return max(low for low, _ in pairs), min(high for _, high in pairs)
 
 
-def gain_box(model: Any, data: Any) -> np.ndarray:
+def gain_box(data: Any) -> np.ndarray:
     """K over the box of (52), balls (1, 4)."""
     with precision(PRECISION):
-        return to_ball(plant_of(model, "yaw").A[:1]) - data.ball("A_c")[:1]
+        return printed_gain_box(data)
 
 
 def s3_own(model: Any, data: Any, synthesis: Any) -> Result:
@@ -162,17 +173,10 @@ def s3_own(model: Any, data: Any, synthesis: Any) -> Result:
 def enclosure_evidence(model: Any, data: Any, K: np.ndarray) -> dict[str, Any]:
     """Intersections of the three enclosures of L_r: K from the box of (52), then K.q1, then with the printed sign."""
     out: dict[str, Any] = {}
-    for name, gain, sign in (("K of (52)", gain_box(model, data), 1), ("K.q1", K, 1), ("printed sign", K, -1)):
+    for name, gain, sign in (("K of (52)", gain_box(data), 1), ("K.q1", K, 1), ("printed sign", K, -1)):
         sets = estimator_gain_sets(model, data, gain, sign)
         out[f"L_r, {name}"] = [[float(end) for end in intersect([column[i] for column in sets])] for i in range(3)]
     return out
-
-
-def columns_exclude(model: Any, data: Any) -> Statement:
-    """With the printed sign of (46) columns 1 and 2 leave a common L_r(1): they do not."""
-    sets = estimator_gain_sets(model, data, gain_box(model, data), -1)
-    low, high = intersect([sets[0][0], sets[1][0]])
-    return Statement({"overlap of columns 1 and 2": high - low})
 
 
 def abs_stable_red_y(model: Any, data: Any) -> Result:

@@ -7,7 +7,15 @@ from typing import Any
 import numpy as np
 from flint import fmpq, fmpq_poly
 
+from recontrol.exact.ball import to_ball
 from recontrol.exact.polynomial import monic, routh_column
+
+UNUSED = "none depends on it"
+
+
+def used(numbers: str, correct: str = "") -> dict[str, str]:
+    """Evidence for the errata sheet: whether the paper's own numbers used the right version, and the correct form."""
+    return {"correct form": correct, "numbers": numbers} if correct else {"numbers": numbers}
 
 
 def descending(row: np.ndarray) -> fmpq_poly:
@@ -28,6 +36,11 @@ def coefficient_margins(p: Any, name: str = "coefficient") -> dict[str, Any]:
 def printed_gain(data: Any) -> np.ndarray:
     """K (1, 4) from the first row of (52) and that of (6), as the exact decimals."""
     return data["A_yaw"][:1] - data["A_c"][:1]
+
+
+def printed_gain_box(data: Any) -> np.ndarray:
+    """The same over the whole rounding box of (52), balls in the working precision."""
+    return to_ball(data["A_yaw"][:1]) - data.ball("A_c")[:1]
 
 
 def zeros(m: int, n: int) -> np.ndarray:

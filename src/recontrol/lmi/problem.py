@@ -242,7 +242,7 @@ class Problem:
 
     def solve(
         self,
-        solver: str | solvers.Profile = "CLARABEL",
+        solver: str | solvers.Profile | None = None,
         *,
         margin: str | int | None = None,
         time_limit: float = solvers.DEFAULT_TIME_LIMIT,
@@ -250,6 +250,7 @@ class Problem:
     ) -> Solution:
         """Solve in scaled units and check the returned point.
 
+        Without a ``solver`` the run's own choice counts (see :func:`solvers.default`).
         ``margin`` (decimal text) holds every strict condition off: M_s - margin I >= 0. Without an objective and a
         margin the largest common margin (at most 1) is sought, and "infeasible" means that it is not positive as far as
         the solver sees. ``time_limit`` [s] binds every solver. Further keywords are options of the solver. Raises
@@ -257,7 +258,7 @@ class Problem:
         """
         from recontrol.lmi.model import build
 
-        chosen = solvers.profile(solver, **options)
+        chosen = solvers.profile(solver or solvers.default(), **options)
         sought = margin is None and self.objective is None
         model = build(self, None if sought else rational.rational(margin or 0))
         run = solvers.run(model.problem, chosen, time_limit)

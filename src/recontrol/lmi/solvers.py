@@ -70,6 +70,12 @@ PROFILES: dict[str, Profile] = {
 }
 
 
+def default() -> str:
+    """Name of the profile that is used where none is named: RECONTROL_SOLVER, which the stage runner sets from the
+    configuration, else CLARABEL."""
+    return os.environ.get("RECONTROL_SOLVER", "CLARABEL")
+
+
 def profile(name: str | Profile, **options: Any) -> Profile:
     """Profile by name (or a profile itself) with ``options`` over its own.
 

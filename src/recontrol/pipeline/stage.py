@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import argparse
 import io
+import os
 from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
@@ -22,7 +23,9 @@ def run(stage: str, key: str, part: str | None) -> None:
     if part is not None and part not in paper.parts(stage):
         raise StageError(f"papers/{key}/paper.yaml: stage {stage} has no part {part!r}")
     function = inputs.function_of(key, MODULES[stage], part or stage)
-    available = inputs.Inputs(paper, inputs.load_config(), inputs.before(stage))
+    config = inputs.load_config()
+    os.environ.setdefault("RECONTROL_SOLVER", str(config["solver"]).upper())
+    available = inputs.Inputs(paper, config, inputs.before(stage))
     result = available.call(function)
     home = inputs.where(function)
     contents: dict[Path, bytes] = {}

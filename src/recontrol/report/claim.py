@@ -157,6 +157,7 @@ class Claim:
     def evidence(self, *names: str) -> str:
         """The first text that a finding gives under one of the names; empty if none does."""
         given = [finding.evidence for finding in self.findings if isinstance(finding.evidence, dict)]
+        given += [case for evidence in given for case in dicts(list(evidence.values()))]
         return next((str(found[name]) for found in given for name in names if isinstance(found.get(name), str)), "")
 
     @property

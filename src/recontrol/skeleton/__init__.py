@@ -9,7 +9,8 @@ from pathlib import Path
 
 from recontrol.errors import PaperError
 
-REFERENCE = "decay.csv"
+REFERENCE = ("decay.csv", "REASONS.md")
+"""Files that go into reference/."""
 
 
 def create(root: Path, key: str) -> str:
@@ -31,7 +32,7 @@ def create(root: Path, key: str) -> str:
     year = re.sub(r"\D", "", key)
     for entry in sorted(files("recontrol.skeleton").joinpath("files").iterdir(), key=lambda item: item.name):
         name = entry.name.removesuffix(".txt")
-        target = scratch / "reference" / name if name == REFERENCE else scratch / name
+        target = scratch / "reference" / name if name in REFERENCE else scratch / name
         text = entry.read_text(encoding="utf-8").replace("KEY", key).replace("YEAR", year)
         target.write_text(text, encoding="utf-8")
     scratch.rename(folder)
