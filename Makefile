@@ -6,7 +6,7 @@ BIN = $(VENV)/bin
 LOCK_DATE ?=
 
 .DEFAULT_GOAL := help
-.PHONY: help reproduce test check lint unit build environment test-environment lock schemas book bundle clean distclean
+.PHONY: help reproduce test check lint unit build environment test-environment lock schemas book picture bundle clean distclean
 
 help: ## this list
 	@grep -hE '^[a-z-]+:.*## ' $(MAKEFILE_LIST) | sed 's/:.*## /\t/' | expand -t 18
@@ -44,6 +44,9 @@ schemas: test-environment ## JSON Schemas of paper.yaml and claims.yaml for edit
 
 book: reproduce ## VERDICTS.md, docs/errata and the counts of the README, from a finished run
 	@PYTHONPATH=src $(BIN)/python -m recontrol.report book
+
+picture: test-environment ## the README's picture of the report, from a finished run (needs chromium)
+	@$(VENV)-test/bin/python tools/picture.py
 
 bundle: reproduce ## what one would deposit in an archive: run/bundle/, with a manifest of digests
 	@PYTHONPATH=src $(BIN)/python -m recontrol.report bundle
