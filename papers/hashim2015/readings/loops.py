@@ -120,8 +120,3 @@ def abs_stable_full(model: Any, data: Any) -> Result:
     separated = charpoly(plant.A - plant.B @ K) * charpoly(plant.A - data["L"] @ plant.C)
     evidence = {"characteristic polynomial is the product of controller and estimator": bool(charpoly(M) == separated)}
     return Result(Statement(routh_margins(charpoly(M))), evidence=evidence)
-
-
-def ace_matrix(data: Any, case: str) -> np.ndarray:
-    """(55) with entry (6,5) as printed or one."""
-    return data["A_ce" if case == "ace-print" else "A_ce_one"]

@@ -298,13 +298,3 @@ def mark(text: str, other: str) -> list[tuple[str, bool]]:
         same += 1
     pieces = [(text[:same], False), (text[same:], True)]
     return [piece for piece in pieces if piece[0]]
-
-
-def digits_agreeing(printed: str, cell: Cell) -> int | None:
-    """Return how many leading significant digits of the printed number the found one shares, ``None`` for pairs."""
-    model = parse_print(printed)
-    if model is None or cell.im is not None:
-        return None
-    pieces = mark(like(cell.re, model), printed)
-    shared = "" if pieces[0][1] else pieces[0][0]
-    return len(re.sub(r"[^\d]", "", re.split(r"[eE]", shared)[0]).lstrip("0"))
