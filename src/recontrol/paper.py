@@ -184,6 +184,7 @@ class Data:
         return name in self._printed
 
     def names(self) -> list[str]:
+        """All names, variants included."""
         return list(self._printed)
 
     def __getitem__(self, name: str) -> Any:
@@ -230,6 +231,7 @@ class Data:
         return "\n".join(" ".join(cell.text for cell in row) for row in self.printed(name).rows)
 
     def unit(self, name: str) -> str:
+        """The unit as paper.yaml gives it; a variant has that of its datum. Raises UnknownNameError."""
         self.printed(name)
         return self._units[name]
 
@@ -242,10 +244,12 @@ class Paper:
 
     @property
     def key(self) -> str:
+        """The folder's name."""
         return self.file.key
 
     @cached_property
     def data(self) -> Data:
+        """The printed data, parsed once."""
         from recontrol.claims.printed import Printed
 
         printed = {name: Printed.parse(d.printed, exact=d.exact) for name, d in self.file.data.items()}

@@ -30,6 +30,7 @@ class Series(NamedTuple):
 
     @property
     def line(self) -> dict[str, Any]:
+        """Arguments of `axes.plot` for a line."""
         return {"color": self.color, "linestyle": self.linestyle}
 
     @property

@@ -58,6 +58,7 @@ class Cell:
 
     @staticmethod
     def parse(text: str) -> Cell:
+        """A decimal, or a pair a+-bi of conjugates. Raises ValueError for anything else."""
         match = _COMPLEX.fullmatch(text)
         if match is None:
             return Cell(text, Number.parse(text))
@@ -67,6 +68,7 @@ class Cell:
 
     @property
     def parts(self) -> tuple[Number, ...]:
+        """The real part, and the imaginary part of a pair."""
         return (self.real,) if self.imag is None else (self.real, self.imag)
 
 
@@ -95,14 +97,17 @@ class Printed:
 
     @property
     def shape(self) -> tuple[int, int]:
+        """Rows and columns."""
         return len(self.rows), len(self.rows[0])
 
     @property
     def is_scalar(self) -> bool:
+        """One row, one column."""
         return self.shape == (1, 1)
 
     @property
     def is_complex(self) -> bool:
+        """Whether any cell has an imaginary part."""
         return any(cell.imag is not None for row in self.rows for cell in row)
 
     @cached_property

@@ -88,6 +88,7 @@ def point_certificate(
     notes: Mapping[str, str],
     bound: Mapping[str, Any] | None = None,
 ) -> dict[str, Any]:
+    """Certificate of the conditions at the ``exact`` point, with the matrices that the verifier tests."""
     with ball.precision(precision):
         values = {**problem.data, **exact}
         matrices = [
@@ -156,6 +157,7 @@ def _found_multipliers(
 
 
 def given_multipliers(problem: Problem, multipliers: Mapping[str, Any]) -> Multipliers:
+    """Multipliers of the caller, zero where none is given. Raises NotProvenError for one that has no condition."""
     slack = [name for name in slack_conditions(problem) if name not in multipliers]
     unknown = set(multipliers) - {c.name for c in problem.named}
     if unknown:
@@ -173,6 +175,7 @@ def multiplier_certificate(
     notes: Mapping[str, str],
     bound: Mapping[str, Any] | None = None,
 ) -> dict[str, Any]:
+    """Certificate of ``exact`` multipliers, with the affine forms that the verifier adds up."""
     found = write.header(problem, statement, "multipliers", says, precision, notes)
     empty = {"constant": "0", "coefficients": {}}
     found |= {

@@ -29,6 +29,7 @@ class Drift:
 
     @property
     def agrees(self) -> bool:
+        """Whether the curve exists and stays within its tolerance."""
         return self.difference is not None and self.difference <= self.tolerance
 
 

@@ -25,6 +25,7 @@ class Difference:
     found: str
 
     def row(self) -> str:
+        """One line of the table that `check` prints."""
         return f"{self.paper:<12} {self.item:<28} expected {self.expected:<28} found {self.found}"
 
 
