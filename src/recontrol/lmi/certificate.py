@@ -95,6 +95,7 @@ def header(problem: Problem, statement: str, proof: str, says: str, precision: i
         "data": {name: encode(value) for name, value in problem.data.items()},
         "source": problem.source,
         "variables": {name: encode_variable(v) for name, v in problem.variables.items()},
+        "order": list(problem.variables),  # of the unknowns; a file with sorted keys has lost it
         "boxes": {n: [encode(_matrix(lo)), encode(_matrix(hi))] for n, (lo, hi) in problem.boxes.items()},
         "precision": precision,
         "notes": dict(notes),

@@ -74,7 +74,7 @@ def rebuild(stored: Mapping[str, Any]) -> Problem:
         objective = Objective(locate(costs["function"]), stored["sense"], costs["rename"])
     return Problem(
         stored["problem"],
-        {name: write.decode_variable(v) for name, v in stored["variables"].items()},
+        {name: write.decode_variable(stored["variables"][name]) for name in stored.get("order", stored["variables"])},
         conditions,
         {name: write.decode(value) for name, value in stored["data"].items()},
         objective,
