@@ -55,6 +55,13 @@ def test_explain_names_the_rule_and_the_distances(run, identity: str) -> None:
     assert f"at papers/{fake.KEY}/readings/loops.py:4" in out
 
 
+def test_explain_shows_the_cells_that_the_claim_is_about(run) -> None:
+    out = run("explain", "fake2020/eq65-2")[1]
+    (printed,) = [line.split()[1:] for line in out.splitlines() if line.startswith("printed")]
+    assert printed[2] == "0.5147"
+    assert set(printed) == {".", "0.5147"}
+
+
 def test_explain_shows_cases_proofs_and_failures(run) -> None:
     assert "case roll: differs, margin = -0.25" in run("explain", "fake2020/s3-pattern")[1]
     assert "recontrol verify results/fake2020/certificates/loop-full.json" in run("explain", "fake2020/eq44-K")[1]

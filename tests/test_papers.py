@@ -45,6 +45,11 @@ def test_files_are_valid_and_complete(folder):
     assert (folder / "NOTES.md").exists()
 
 
+def test_the_bibtex_entry_is_plain_text(folder):
+    """Escaping is done where the entry is written: a backslash here would be printed as one."""
+    assert "\\" not in "".join(map(str, papers.load(folder).file.bibtex.model_dump().values()))
+
+
 def test_every_named_function_exists(folder):
     paper = papers.load(folder)
     readings = functions(folder, "readings")

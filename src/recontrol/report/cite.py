@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from recontrol.report import artifacts, bibtex, present, terminal, values, words
+from recontrol.report import artifacts, bibtex, present, terminal, values
 from recontrol.report.claim import Claim
 from recontrol.report.collect import Paper
 from recontrol.report.unicode import plain
@@ -52,9 +52,8 @@ def sentence(paper: Paper, claim: Claim) -> str:
     how = f" {strength[claim.strength]}" if claim.strength in strength else ""
     found = f"; found: {value}" if value else ""
     scan = ", possibly the scan's" if claim.scanned and claim.verdict == "erratum" else ""
-    verdict = words.verdict(claim.verdict).label
     return plain(
-        f"{authors(paper)}, {claim.where}: {claim.title}{shown} is judged “{verdict}”{scan}{how}{found} "
+        f"{authors(paper)}, {claim.where}: {claim.title}{shown} is judged “{claim.verdict}”{scan}{how}{found} "
         f"(recontrol {bibtex.version()}, {claim.identity})."
     )
 

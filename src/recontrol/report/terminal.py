@@ -98,7 +98,7 @@ def explain(root: Path, identity: str) -> str:
         f"{found.identity}   {found.where}",
         found.title,
         "",
-        *block("printed", (found.printed or "").splitlines() + ([f"[{found.unit}]"] if _shown(found.unit) else [])),
+        *block("printed", _printed(found) + ([f"[{found.unit}]"] if _shown(found.unit) else [])),
         *block("correct", [found.correct] if found.correct else []),
         *block("verdict", [" ".join([verdict.label, *(f"({fact})" for fact in facts if fact)])]),
         *block("rule", wrap(verdict.rule)),
@@ -111,6 +111,18 @@ def explain(root: Path, identity: str) -> str:
     if not found.findings:
         lines += ["", "No reading has run: `snakemake --cores 2 " + found.paper + "` makes the verdicts."]
     return plain("\n".join(line.rstrip() for line in lines))
+
+
+def _printed(found: Claim) -> list[str]:
+    """Return the print line by line; cells that the claim is not about are dots, as in what was found."""
+    lines = (found.printed or "").splitlines()
+    if len(present.printed_cells(found)) in (0, sum(len(row) for row in found.rows or [])):
+        return lines
+    counted = present.is_counted
+    return [
+        " ".join(text if counted(found, i, j) else "." for j, text in enumerate(row))
+        for i, row in enumerate(found.rows or [])
+    ]
 
 
 def _shown(unit: str) -> bool:
