@@ -6,7 +6,7 @@ BIN = $(VENV)/bin
 LOCK_DATE ?=
 
 .DEFAULT_GOAL := help
-.PHONY: help reproduce test check lint unit build environment test-environment lock schemas book picture bundle clean distclean
+.PHONY: help reproduce test check lint unit build environment test-environment bench lock schemas book picture bundle clean distclean
 
 help: ## this list
 	@grep -hE '^[a-z-]+:.*## ' $(MAKEFILE_LIST) | sed 's/:.*## /\t/' | expand -t 18
@@ -35,6 +35,9 @@ unit: test-environment ## the tests alone
 
 faults: test-environment ## every fault test at full size; writes docs/reliability.md (half an hour)
 	@PYTHONPATH=src:. $(VENV)-test/bin/python tools/reliability.py
+
+bench: environment ## speed of the ensembles against plain loops; writes docs/performance.md (a minute)
+	@PYTHONPATH=src:. $(BIN)/python tools/bench.py --write
 
 matrix: test-environment ## all papers under several environments; writes docs/reproducibility.md (an hour)
 	@PYTHONPATH=src:. $(VENV)-test/bin/python tools/matrix.py

@@ -1,7 +1,7 @@
 """Robustness ensembles: what the rounding of the print and the start of the satellite make of the loops of yaw.
 
 Gains and matrices are drawn uniformly over the rounding boxes of the print, plant coefficients over half a unit of
-their last place, initial states as in the regulator experiment: a uniform direction of length one, the estimate at zero.
+their last place; initial states as in the regulator experiment: uniform directions of length one, estimates at zero.
 """
 
 from __future__ import annotations

@@ -1,0 +1,38 @@
+"""The benchmark refuses to time methods that disagree, and the ensembles are as fast as promised."""
+
+from __future__ import annotations
+
+import importlib.util
+
+import numpy as np
+import pytest
+
+from tests.conftest import ROOT
+
+SPEC = importlib.util.spec_from_file_location("bench", ROOT / "tools/bench.py")
+bench = importlib.util.module_from_spec(SPEC)
+SPEC.loader.exec_module(bench)
+
+
+def test_methods_agree_and_the_plain_loop_is_a_hundred_times_slower():
+    loops = bench.printed_loops(4)
+    bench.agreement(*loops)
+    ours, plain = bench.rate(bench.batched, *bench.printed_loops(300)), bench.rate(bench.solve_ivp_loop, *loops)
+    assert ours > bench.REQUIRED * plain
+
+
+def test_disagreement_stops_the_benchmark(monkeypatch):
+    wrong = lambda A, x0: bench.batched(1.001 * A, x0)  # noqa: E731
+    monkeypatch.setitem(bench.OTHERS, "solve_ivp", wrong)
+    with pytest.raises(SystemExit, match="solve_ivp deviates"):
+        bench.agreement(*bench.printed_loops(3))
+
+
+def test_exponent_of_a_power_law():
+    assert bench.exponent({k: k**1.5 for k in (1, 2, 4, 8)}) == pytest.approx(1.5)
+
+
+def test_random_loops_are_stable():
+    A, x0 = bench.random_loops(20, 6)
+    assert np.linalg.eigvals(A).real.max() == pytest.approx(-0.1)
+    assert np.linalg.norm(x0, axis=1) == pytest.approx(np.ones(20))
