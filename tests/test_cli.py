@@ -133,6 +133,11 @@ def test_a_new_folder_passes_the_contract_and_says_what_to_fill_in(run, tmp_path
         ("paper.yaml", "what: published gain}", "what: published gain, as printed}", "quote it"),
         ("claims.yaml", "note: plants", "note: planets", "planets"),
         ("claims.yaml", "data: k", "data: kk", "kk"),
+        ("claims.yaml", "readings:\n    - {name: pole placement, kind: definition, function: gain}", "readings: []",
+         "at least one reading"),
+        ("claims.yaml", "missing: [a noise model, a criterion]", "missing: []", "what the paper does not give"),
+        ("claims.yaml", "expected: {verdict: reproduced}", "expected: {verdict: fine}", "verdict"),
+        ("NOTES.md", "## plants", "# plants", "note 'plants' has no heading"),
     ],
 )  # fmt: skip
 def test_check_names_what_is_wrong(run, tmp_path: Path, file: str, old: str, new: str, said: str) -> None:
@@ -144,6 +149,16 @@ def test_check_names_what_is_wrong(run, tmp_path: Path, file: str, old: str, new
     assert code == 1
     assert said in err
     assert file.removesuffix(".py") in err
+
+
+@pytest.mark.parametrize("name", ["paper.yaml", "claims.yaml", "NOTES.md", "model.py", "readings.py"])
+def test_check_asks_for_missing_files(run, tmp_path: Path, name: str) -> None:
+    run("new", "smith2024")
+    (tmp_path / "papers" / "smith2024" / name).unlink()
+    code, out, err = run("check", "smith2024")
+    assert (code, out) == (1, "")
+    assert name in err
+    assert "Traceback" not in err
 
 
 def test_check_asks_for_missing_stage_files(run, tmp_path: Path) -> None:
