@@ -34,7 +34,8 @@ build() {
         cd "$folder"
         export PYTHONPATH="$PWD/src:$PWD"
         timeout 1500 snakemake --cores "$cores" all
-        snakemake --cores "$cores" all 2>&1 | grep -q 'Nothing to be done' || { echo "a second run is not idle" >&2; exit 1; }
+        second="$(snakemake --cores "$cores" all 2>&1)" || { echo "$second" >&2; exit 1; }
+        grep -q 'Nothing to be done' <<<"$second" || { echo "$second"; echo "a second run is not idle" >&2; exit 1; }
         snakemake --cores "$cores" check
     )
     export RECONTROL_BUILT="$folder"
