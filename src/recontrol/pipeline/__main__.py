@@ -16,7 +16,6 @@ COMMANDS = (
     "review",
     "reference",
     "salvage",
-    "publish",
     "campaign",
 )
 

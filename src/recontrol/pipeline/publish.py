@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import argparse
 from pathlib import Path
 
 from recontrol.pipeline import store
@@ -15,13 +14,3 @@ def run(stage: str, folders: list[Path]) -> None:
         paths = sorted(folder.rglob("*")) if folder.is_dir() else [folder]
         files |= {path.as_posix(): path.read_bytes() for path in paths if path.is_file()}
     store.publish(files, {"stage": stage, "paper": None})
-
-
-def main(arguments: list[str]) -> int:
-    """Command line: STAGE PATH ..."""
-    parser = argparse.ArgumentParser(prog="recontrol.pipeline publish")
-    parser.add_argument("stage")
-    parser.add_argument("paths", nargs="+", type=Path)
-    options = parser.parse_args(arguments)
-    run(options.stage, options.paths)
-    return 0
