@@ -1,0 +1,1 @@
+"""What the claims are held against; one module per topic."""

@@ -1,0 +1,113 @@
+"""Sections 3 and 4 about the observer and the complete problem: poles, the placed gain, infeasibility."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+from flint import fmpq
+
+from recontrol.claims.values import Approx, Membership, Result, Statement
+from recontrol.exact import ball, rational
+from recontrol.lmi import verify
+
+from .. import model as plants
+from .. import pole_boxes
+
+BITS = 128
+
+
+def _plant(data: Any) -> np.ndarray:
+    return plants.plant(data, data["n_printed"])["A"]
+
+
+def poles_printed(data: Any) -> Result:
+    """No L in the box of the print has the poles: d(s) is away from zero over the whole box at one pole at least."""
+    with ball.precision(BITS):
+        A = _plant(data)
+        bounds = pole_boxes.excluded(data, A, data.ball("L_printed"))
+        out = any(value > 0 for value in bounds.values())
+        multiple = pole_boxes.nearest(data, A, data["L_printed"], data.half("L_printed"))[0]
+    inside = Membership(False if out else None, "ball", "d(s) does not vanish over the box")
+    return Result(inside, {"abs d(s) at least": bounds, "multiple of all half units needed (float)": multiple})
+
+
+def poles_corrected(data: Any) -> Result:
+    """Some L in the box with L21 = -0.0025 has exactly the poles (Krawczyk)."""
+    with ball.precision(BITS):
+        A, half = _plant(data), data.half("L_corrected")
+        multiple, L = pole_boxes.nearest(data, A, data["L_corrected"], half)
+        exact = rational.rounded(L, 14)
+        found, moved, _ = pole_boxes.krawczyk(data, A, exact)
+        room = min(h - abs(a - b) for a, b, h in zip(exact.flat, data["L_corrected"].flat, half.flat, strict=True))
+    holds = found and room > pole_boxes.RADIUS
+    why = f"an exact placement lies within 1e-9 of a rational L in the box; entries moved: {moved}"
+    return Result(
+        Membership(True if holds else None, "ball", why), {"multiple of all half units needed (float)": multiple}
+    )
+
+
+def placed_gain(synthesis: Any) -> Result:
+    """Three placements, none of which is the printed gain: with three outputs the placement is not unique."""
+    report = synthesis["placement"]["report"]
+    nearest = min(entry["distance"] for entry in report.values())
+    return Result(Approx(float(nearest), 1e-6), {name: dict(entry) for name, entry in report.items()})
+
+
+def _membership(certificate: Any, inside: bool) -> Membership:
+    """What a verified certificate decides; open if it does not verify."""
+    found = verify.check(certificate)
+    return Membership(inside if found.holds else None, found.strength, found.why)
+
+
+def solvable(certificates: Any, synthesis: Any, case: str) -> Result:
+    """(38) contains (14), which has no solution for this observer gain."""
+    margin = synthesis["multipliers"][case]["t"]
+    words = {solver: record["words"] for solver, record in synthesis["P38"][case].items()}
+    evidence = {"t* [1/s]": float(margin), "what solvers say": words}
+    return Result(_membership(certificates[f"p38_{case}"], False), evidence, f"p38_{case}")
+
+
+def solvable_placed(certificates: Any) -> Result:
+    """The same for the gains of three placement algorithms."""
+    names = ("yang_tits", "varga", "kautsky")
+    answers = [verify.check(certificates[f"p38_{name}"]) for name in names]
+    decided = all(answer.holds for answer in answers)
+    return Result(Membership(False if decided else None, "exact", "; ".join(names)), {}, "p38_yang_tits")
+
+
+def X_definite(certificates: Any) -> Result:
+    from recontrol.claims.values import certified
+
+    return Result(certified(certificates["X_definite"]), {}, "X_definite")
+
+
+def satisfies_eq14(certificates: Any, case: str) -> Result:
+    return Result(_membership(certificates[f"eq14_{case}"], False), {}, f"eq14_{case}")
+
+
+def req_i(certificates: Any, case: str) -> Result:
+    from recontrol.claims.values import certified
+
+    return Result(certified(certificates[f"stable_{case}"]), {}, f"stable_{case}")
+
+
+def req_iii(certificates: Any, case: str) -> Result:
+    """u_max minus the proven bound of each axis, from the certificates; a margin of the squares, exact."""
+    margins, evidence = {}, {}
+    for axis, limit in zip("xyz", (40, 40, 20), strict=True):
+        certificate = certificates[f"thrust_{case}_{axis}"]
+        found = verify.check(certificate)
+        square = verify.number(certificate["bound"]["value"])
+        margins[f"1 - (bound/u_max)^2, {axis}"] = (fmpq(1) - square) if found.holds else ball.ball(0, 1)
+        evidence[f"bound {axis} [N]"] = limit * float(rational.to_float(square)) ** 0.5
+    return Result(Statement(margins), evidence, f"thrust_{case}_x")
+
+
+def req_iii_full(data: Any, simulation: Any, synthesis: Any) -> Result:
+    """An observer started from zero: the loop itself breaks the limits, and the bound says no more."""
+    peak = np.asarray(simulation["main"]["values"]["xhat0_zero"]["peak_thrust"])
+    limit = data.float("u_max")[0]
+    margins = {f"u_max - peak, {axis} [N]": Approx(float(limit[i] - peak[i]), 1e-3) for i, axis in enumerate("xyz")}
+    bounds = {f"bound {axis} [N]": synthesis["repaired"]["thrust"][f"e0_full_{axis}"] for axis in "xyz"}
+    return Result(Statement(margins), bounds)
