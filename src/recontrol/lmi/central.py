@@ -17,7 +17,8 @@ import numpy as np
 from recontrol.lmi.duality import FloatForm
 from recontrol.lmi.repair import shortest
 
-STEPS = 120
+# Newton steps between two points of the path; a dozen is usual, more means that rounding has the upper hand.
+STEPS = 25
 
 
 def blend(form: FloatForm, Z: Mapping[str, np.ndarray], interior: Mapping[str, np.ndarray]) -> dict[str, np.ndarray]:
@@ -40,18 +41,20 @@ def path(
     F = {n: form.coefficients[n][:, equations].toarray().T.reshape(len(equations), *start[n].shape) for n in names}
     order = sum(len(start[n]) for n in names if n not in form.equalities)
     Z, t = dict(start), 10 * max(size, abs(value(form, start))) / order
-    for _ in range(STEPS):
+    taken = 0
+    while taken < STEPS:
         roots = {n: (np.eye(len(Z[n])), np.eye(Z[n].shape[1])) if n in form.equalities else _root(Z[n]) for n in names}
         if any(not np.isfinite(L).all() for pair in roots.values() for L in pair):
             return
         step, length = _newton(form, F, Z, roots, equations, t, names)
         damping = 1.0 if length < 0.25 else _damping(form, roots, step, t)
         Z = {n: Z[n] + damping * (roots[n][0] @ step[n] @ roots[n][1].T) for n in names}
+        taken += 1
         if length < 0.25:
             yield t * order, Z
             if t <= gap / order:
                 return
-            t *= 0.1
+            t, taken = t * 0.1, 0
 
 
 def _newton(

@@ -23,6 +23,8 @@ __all__ = ["Enclosure", "NotProvenError", "bound_by_multipliers", "bound_by_poin
 
 # Nearest point of the central path, relative; how many of its points are tried; unknowns times entries it is worth.
 NEAREST, TRIES, WORK = 1e-7, 4, 2_000_000
+# Least eigenvalue of interior multipliers (of unit total trace) that is more than a solver's noise.
+INSIDE = 1e-9
 # Held off by less, a point fails at the solver's own accuracy; by more, the enclosure is wide for nothing.
 BACK_OFFS = ("1e-9", "1e-8", "1e-7", "1e-6", "1e-5")
 
@@ -153,15 +155,13 @@ class _Search:
             self._point(found[0], common)
         if self.by_multipliers is None and not self.tried:
             self.tried = True
-            for faced, interior in self._candidates():
-                self._central(faced, interior, common)
+            self._on_central_paths(common)
 
     def _central(self, faced: Faced, interior: Mapping[str, np.ndarray], common: dict[str, Any]) -> None:
         """Multipliers from the central path: the nearest point of it that can be proven."""
-        found = self._solved(faced, 0.0, 0.0)
         form = duality.float_form(faced)
         work = self.problem.size * sum(M.size for M in form.constants.values())
-        if self.by_multipliers is not None or found is None or form.boxes or work > WORK:
+        if form.boxes or work > WORK or (found := self._solved(faced, 0.0, 0.0)) is None:
             return
         unknowns = list(range(self.problem.size))
         start = projected(form, central.blend(form, found[1], interior), unknowns)
@@ -174,15 +174,17 @@ class _Search:
             notes = {**common["notes"], "back_off": f"central path, gap {width:.1e}"}
             self._multipliers(conditioned, conditioned.in_bases(Z), {**common, "notes": notes})
 
-    def _candidates(self) -> list[tuple[Faced, dict[str, np.ndarray]]]:
-        """Interior multipliers on the given faces, or on those that are found."""
+    def _on_central_paths(self, common: dict[str, Any]) -> None:
+        """Follow the path on the given faces, or on those that are found, until one gives a proof."""
         start = Faced(self.problem, self.faced.faces, self.near)
         try:
-            found = list(duality.candidates(start, None, self.solver, self.time_limit))
+            for faced, interior in duality.candidates(start, None, self.solver, self.time_limit):
+                if interior.least > INSIDE:
+                    self._central(faced, interior.multipliers, common)
+                if self.by_multipliers is not None:
+                    return
         except NotProvenError as error:
             self.failures.append(str(error))
-            return []
-        return [(faced, interior.multipliers) for faced, interior in found if interior.least > duality.SINGULAR]
 
     @cached_property
     def near(self) -> tuple[float, ...] | None:

@@ -111,10 +111,14 @@ def shortest(rows: np.ndarray, right: np.ndarray) -> tuple[np.ndarray, np.ndarra
     import scipy.linalg
 
     size = np.maximum(np.linalg.norm(rows, axis=1), 1e-300)
-    Q, R, order = scipy.linalg.qr((rows / size[:, None]).T, mode="economic", pivoting=True)
-    pivots = np.abs(np.diag(R))
-    kept = int((pivots > 1e-13 * pivots[0]).sum())
-    Q, R, order = Q[:, :kept], R[:kept, :kept], order[:kept]
+    scaled = (rows / size[:, None]).T
+    Q, R = scipy.linalg.qr(scaled, mode="economic")
+    order, pivots = np.arange(len(rows)), np.abs(np.diag(R))
+    if scaled.shape[0] < scaled.shape[1] or pivots.min() <= 1e-12 * pivots.max():
+        Q, R, order = scipy.linalg.qr(scaled, mode="economic", pivoting=True)
+        pivots = np.abs(np.diag(R))
+        kept = int((pivots > 1e-13 * pivots[0]).sum())
+        Q, R, order = Q[:, :kept], R[:kept, :kept], order[:kept]
     return Q @ scipy.linalg.solve_triangular(R.T, (right / size)[order], lower=True), Q
 
 

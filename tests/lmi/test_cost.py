@@ -1,0 +1,42 @@
+"""What proving costs, in counts and ratios that hold on any machine."""
+
+import pytest
+
+from recontrol.lmi import bench
+
+
+@pytest.mark.parametrize("n", [3, 12])
+def test_proving_costs_at_most_ten_solves_and_verifying_less_than_one(n):
+    bench.measure(2)  # the first solve of a process pays for imports
+    cost = bench.measure(n)
+    assert cost.width is not None
+    assert cost.width < 1e-5
+    assert cost.verify < cost.solve
+    # Both bounds with the solves they need. Small problems are all overhead of starting solvers.
+    assert cost.prove < 10 * cost.solve + 0.5
+
+
+def test_the_largest_routine_size_is_enclosed():
+    cost = bench.measure(24)
+    assert (cost.order, cost.unknowns) == (26, 301)
+    assert cost.width is not None
+    assert cost.width < 1e-4
+
+
+def test_the_table_has_a_row_for_each_size(capsys):
+    assert bench.main(["--sizes", "2", "3"]) == 0
+    printed = capsys.readouterr().out.splitlines()
+    assert printed[0].startswith("| states |")
+    assert [line.split("|")[1].strip() for line in printed[2:]] == ["2", "3"]
+
+
+def test_page_and_plot_are_written_between_the_marks(tmp_path):
+    page = tmp_path / "lmi.md"
+    page.write_text(f"before\n{bench.BEGIN}\nold\n{bench.END}\nafter\n")
+    assert bench.main(["--sizes", "2", "--write", str(tmp_path)]) == 0
+    text = page.read_text()
+    assert text.startswith("before")
+    assert text.endswith("after\n")
+    assert "old" not in text
+    assert "| 2 | 4 |" in text
+    assert (tmp_path / "lmi-cost.svg").stat().st_size > 1000
