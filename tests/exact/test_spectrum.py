@@ -41,3 +41,10 @@ def test_stability_and_abscissa_of_a_companion_matrix():
     assert spectrum.is_stable(spectrum.companion([fmpq(-2), fmpq(3)])) is False
     wide = ball.box(rational.matrix("0 1\n-1 0"), rational.matrix("0.1 0\n0 0.1"))
     assert spectrum.is_stable(wide) is None
+
+
+def test_a_lone_eigenvalue_of_a_box_is_real_and_a_pair_is_not():
+    centre, half = rational.matrix("-1 3 0\n-3 -1 0\n1 0 2"), rational.matrix([["1e-6"] * 3] * 3)
+    fast, slow, lone = spectrum.eigenvalues(ball.box(centre, half))
+    assert lone.imag == 0
+    assert fast.imag > 0 > slow.imag

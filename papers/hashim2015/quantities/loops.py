@@ -39,11 +39,12 @@ def families(data: Any, model: Any, synthesis: Any) -> dict[str, dict[str, np.nd
 
 
 def stability(data: Any, model: Any, synthesis: Any) -> dict[str, Any]:
-    """Stable or not, and spectral abscissa, of each loop."""
+    """Stable or not, spectral abscissa and eigenvalues of each loop."""
     out: dict[str, Any] = {}
     for name, loops in families(data, model, synthesis).items():
         out[f"{name}_stability"] = {case: analysis.word(is_stable(M)) for case, M in loops.items()}
         out[f"{name}_abscissa"] = {case: spectral_abscissa(M) for case, M in loops.items()}
+        out[f"{name}_eigenvalues"] = {case: eigenvalues(M) for case, M in loops.items()}
     return out
 
 

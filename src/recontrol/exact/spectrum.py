@@ -18,7 +18,21 @@ def eigenvalues(M: np.ndarray, bits: int = PRECISION) -> list[acb]:
     if not has_balls(M):
         return roots(charpoly(M), bits)
     with precision(bits):
-        return degree_sorted(arb_mat(to_ball(M).tolist()).eig())
+        return degree_sorted(_on_the_axis(arb_mat(to_ball(M).tolist()).eig()))
+
+
+def _on_the_axis(found: list[acb]) -> list[acb]:
+    """The same with imaginary part 0 where an eigenvalue must be real.
+
+    The enclosures are disjoint, one eigenvalue each, and the conjugate of an eigenvalue is one too: if the mirror image
+    of an enclosure meets no other enclosure, its eigenvalue is its own conjugate.
+    """
+    out = []
+    for z in found:
+        mirror = acb(z.real, -z.imag)
+        real = mirror.overlaps(z) and not any(mirror.overlaps(other) for other in found if other is not z)
+        out.append(acb(z.real) if real else z)
+    return out
 
 
 def spectral_abscissa(M: np.ndarray, bits: int = PRECISION) -> arb:
