@@ -1,0 +1,1 @@
+"""Readings of the claims, by topic; claims.yaml names them as ``module.function``."""
