@@ -236,6 +236,13 @@ def friendlier_form(c):
     c["witness"]["multipliers"] = {"lyapunov": [["1", "0"], ["0", "0"]]}
 
 
+def doubled_form(c):
+    """Still infeasible, by the same multipliers, but not the paper's coefficients."""
+    for entries in c["forms"][1]["coefficients"].values():
+        for e in entries:
+            e[2] = str(2 * fmpq(*map(int, e[2].split("/"))))
+
+
 def other_objective(c):
     c["objective"]["constant"] = "-1"
     c["bound"]["value"] = "0"
@@ -253,6 +260,7 @@ def other_objective(c):
         ("definite", other_case),
         ("infeasible", friendlier_data),
         ("infeasible", friendlier_form),
+        ("infeasible", doubled_form),
         ("infeasible", other_case),
         ("upper", altered_witness),
         ("upper", other_objective),
@@ -261,6 +269,11 @@ def other_objective(c):
 def test_true_arithmetic_about_something_else_is_refused_with_the_paper(made, root, kind, change):
     found = verify.check(resealed(made[kind], change), root)
     assert not found.holds, found.why
+
+
+def test_doubled_coefficients_are_true_arithmetic(made, tmp_path):
+    """What refuses them above is the comparison with the paper, nothing else."""
+    assert verify.check(resealed(made["infeasible"], doubled_form), tmp_path).holds
 
 
 def test_a_new_digest_is_accepted_while_the_statement_is_true(made, root):
