@@ -1,6 +1,6 @@
 """Take the README's picture of the report: docs/images/report.png, from a finished run. Needs chromium.
 
-    python tools/picture.py [PAPER]
+python tools/picture.py [PAPER]
 """
 
 import shutil
