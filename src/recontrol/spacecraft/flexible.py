@@ -27,7 +27,7 @@ Array = Any  # arrays of floats, or of rationals
 def orbital_matrices(inertia: Array, orbital_rate: Any) -> tuple[Array, Array, Array]:
     """``(D, G, N)``, each (3, 3), of the small-angle model ``J q'' + D q' + G q + F' eta'' = u``.
 
-    ``inertia`` (3,) [kg m^2], ``orbital_rate`` [rad/s]. ``N`` is the transport term of ``w' = q'' + N q'``, which$
+    ``inertia`` (3,) [kg m^2], ``orbital_rate`` [rad/s]. ``N`` is the transport term of ``w' = q'' + N q'``, which
     drives the modes: ``eta'' + ... + F (q'' + N q') = 0``.
     """
     J = np.ravel(inertia)

@@ -50,10 +50,14 @@ def prove_in_disk(A: Array, centre: Any, radius: Any, *, bits: int = 200) -> Arr
     return P if verify_in_disk(A, P, a, r, bits=bits) else None
 
 
-def verify_in_disk(A: Array, P: Array, centre: Any, radius: Any, *, bits: int = 200) -> bool:
-    """Whether ``P > 0`` and ``r^2 P - (A + aI)' P (A + aI) > 0`` for every matrix of the box, by L D L' in balls."""
+def shifted_gap(A: Array, P: Array, centre: Any, radius: Any) -> Array:
+    """``radius^2 P - (A + centre I)' P (A + centre I)`` in balls at the present precision."""
     a, r = rational(centre), rational(radius)
+    shifted = to_ball(A) + identity(len(A)) * a
+    return to_ball(P * (r * r) - shifted.T @ P @ shifted)
+
+
+def verify_in_disk(A: Array, P: Array, centre: Any, radius: Any, *, bits: int = 200) -> bool:
+    """Whether ``P > 0`` and `shifted_gap` > 0 for every matrix of the box, by L D L' in balls."""
     with precision(bits):
-        shifted = to_ball(A) + identity(len(A)) * a
-        gap = P * (r * r) - shifted.T @ P @ shifted
-        return is_positive_definite(P) and is_positive_definite(to_ball(gap))
+        return is_positive_definite(P) and is_positive_definite(shifted_gap(A, P, centre, radius))

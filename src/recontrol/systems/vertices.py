@@ -5,7 +5,7 @@ A vertex sweep refutes a robustness claim or supports it; it never proves one (p
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from typing import NamedTuple
 
 import numpy as np
@@ -28,16 +28,21 @@ def sign_vertices(count: int) -> Array:
     return np.where((numbers >> np.arange(count)[::-1]) & 1, 1.0, -1.0)
 
 
-def worst(measure: Callable[[Array], Array], points: Array, chunk: int = 4096) -> Worst:
-    """Largest ``measure(points)`` over the rows of ``points`` (m, k), evaluated in chunks to bound the memory."""
-    best = Worst(-np.inf, points[0])
+def worst_each(measures: Callable[[Array], Mapping[str, Array]], points: Array, chunk: int = 4096) -> dict[str, Worst]:
+    """Largest value of each named measure over the rows of ``points`` (m, k), in chunks to bound the memory."""
+    best: dict[str, Worst] = {}
     for start in range(0, len(points), chunk):
         part = points[start : start + chunk]
-        values = np.asarray(measure(part))
-        k = int(np.argmax(values))
-        if values[k] > best.value:
-            best = Worst(float(values[k]), part[k])
+        for name, values in measures(part).items():
+            k = int(np.argmax(values))
+            if name not in best or values[k] > best[name].value:
+                best[name] = Worst(float(values[k]), part[k])
     return best
+
+
+def worst(measure: Callable[[Array], Array], points: Array, chunk: int = 4096) -> Worst:
+    """Largest ``measure(points)`` over the rows of ``points``, see `worst_each`."""
+    return worst_each(lambda part: {"": np.asarray(measure(part))}, points, chunk)[""]
 
 
 def abscissa(matrices: Array) -> Array:
