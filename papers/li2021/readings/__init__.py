@@ -1,0 +1,1 @@
+"""What was found, claim by claim; claims.yaml names the functions as ``topic.function``."""
