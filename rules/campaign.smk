@@ -28,7 +28,9 @@ rule ensemble:
         chunks=graph.chunks(config["ensemble_chunks"]),
         code=graph.code("campaign"),
     output:
-        multiext("results/{paper}/ensemble/{name}", ".json", ".svg", ".pdf", ".png", ".csv"),
+        multiext(
+            "results/{paper}/ensemble/{name}", ".json", ".svg", ".pdf", ".png", ".csv"
+        ),
     log:
         "run/log/{paper}/ensemble/{name}.log",
     params:
@@ -45,7 +47,9 @@ rule merge:
         chunks=graph.chunks(config["campaign_chunks"]),
         code=graph.code("campaign"),
     output:
-        multiext("results/{paper}/campaign/{name}", ".json", ".svg", ".pdf", ".png", ".csv"),
+        multiext(
+            "results/{paper}/campaign/{name}", ".json", ".svg", ".pdf", ".png", ".csv"
+        ),
     log:
         "run/log/{paper}/campaign/{name}.log",
     params:
