@@ -8,7 +8,7 @@ from flint import fmpq
 from scipy.linalg import solve_continuous_are
 
 from papers.hashim2015 import analysis, certificates, identities, intervals, recipe
-from papers.hashim2015.quantities.loops import sign_overlap
+from papers.hashim2015.quantities.loops import enclosures, sign_overlap
 from papers.hashim2015.readings import formulas, misprints, support
 from papers.hashim2015.synthesis.identifiability import row_of_52
 from papers.hashim2015.synthesis.lqr import EnclosureError, lower_end, moment, upper_end
@@ -137,6 +137,9 @@ def test_columns_of_66_exclude_each_other_with_the_printed_sign():
     overlap = sign_overlap(MODEL, DATA)
     assert overlap["printed sign"][0, 0] < -10
     assert all(width > 0 for width in overlap["derived sign"].flat)
+    meets = enclosures(DATA, MODEL, SYNTHESIS)["print_meets_enclosure"]
+    assert len(meets) == 6
+    assert all(meets.values())
 
 
 def test_weights_outside_the_intervals_give_other_digits():

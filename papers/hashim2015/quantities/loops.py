@@ -80,7 +80,9 @@ def propagate(model: Any, K: np.ndarray, L: np.ndarray) -> dict[str, Any]:
 
 def enclosures(data: Any, model: Any, synthesis: Any) -> dict[str, Any]:
     """Section 6.4 for K of (52) and for K.q1."""
-    out: dict[str, Any] = {"Lr_enclosure": {}, "Br_enclosure": {}, "Dr_enclosure": {}, "error_pole_enclosure": {}}
+    names = ("Lr_enclosure", "Br_enclosure", "Dr_enclosure", "error_pole_enclosure", "print_meets_enclosure")
+    out: dict[str, Any] = {name: {} for name in names}
+    slow = recipe.estimator_poles(recipe.plant_of(model, "yaw"), data["weight_high"])[2].real
     for name, K in (("K of (52)", gain_box(data)), ("K.q1", synthesis["gains"]["yaw"]["balls"]["K"])):
         L = gain_intersection(model, data, K)
         implied = propagate(model, K, L)
@@ -88,6 +90,12 @@ def enclosures(data: Any, model: Any, synthesis: Any) -> dict[str, Any]:
         out["Br_enclosure"][name] = implied["B_r"]
         out["Dr_enclosure"][name] = implied["D_r"]
         out["error_pole_enclosure"][name] = implied["error poles"]
+        pairs = zip(implied["B_r"].ravel(), data.ball("B_r").ravel(), strict=True)
+        out["print_meets_enclosure"] |= {
+            f"{name}: (67)": all(found.overlaps(box) for found, box in pairs),
+            f"{name}: (69)": implied["D_r"][0, 0].overlaps(data.ball("D_r")),
+            f"{name}: real error pole and the slow estimator pair": implied["error poles"][-1].real.overlaps(slow),
+        }
     return out
 
 
