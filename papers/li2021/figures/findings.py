@@ -60,10 +60,13 @@ def certified_drift(synthesis: Any, data: Any) -> tuple[Any, dict[str, Any]]:
     colours = [plotting.BLUE] * 5 + [plotting.PALE] * 2
     ax.barh(places, [100 * v for v in bars.values()], color=colours, height=0.62)
     for place, value in zip(places, bars.values(), strict=True):
-        ax.text(100 * value + 0.25, place, f"{100 * value:.2f}", va="center", fontsize=6)
+        ax.text(
+            100 * value + 0.3, place, f"{100 * value:.2f}", va="center", fontsize=6, zorder=5,
+            bbox={"facecolor": "white", "edgecolor": "none", "pad": 0.8},
+        )  # fmt: skip
     ax.axvline(100 * data.float("drift_bound"), color=plotting.ROSE, linewidth=1)
     ax.set_yticks(places, list(bars))
-    ax.set_xlim(0, 24)
+    ax.set_xlim(0, 26)
     ax.grid(axis="y", visible=False)
     plotting.label_axes(ax, ("gain drift", "%"))
     return fig, {name: (np.array([0.0, 1.0]), np.array([0.0, value])) for name, value in bars.items()}
@@ -84,7 +87,7 @@ def draws(simulation: Any) -> tuple[Any, dict[str, Any]]:
             for place, cell in zip(x, cells, strict=True):
                 if cell["diverged"]:
                     ax.text(
-                        place, 60 if k else 38, f"{cell['diverged']} of 10\ndiverged", ha="center", va="center",
+                        place, 60 if k else 26, f"{cell['diverged']} of 10\ndiverged", ha="center", va="center",
                         fontsize=5.5, color=plotting.SERIES[k].color,
                     )  # fmt: skip
             kept = np.isfinite(y)

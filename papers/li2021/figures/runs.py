@@ -10,6 +10,7 @@ from recontrol import plotting
 
 Array = np.ndarray
 AXES = ("roll", "pitch", "yaw")
+LOST = 0.3  # rad; a run that got there has diverged and is drawn no further
 THIN = 10  # every tenth sample (0.1 s) is drawn
 
 
@@ -74,6 +75,12 @@ def fig6(simulation: Any, data: Any) -> tuple[Any, dict[str, Any]]:
     return fig, {name: (t[::THIN], values[::THIN, k]) for k, name in enumerate(names)}
 
 
+def _envelope(values: Array, half: int = 45) -> Array:
+    """Largest modulus within 4.5 s on either side, a little over one period of a mode."""
+    padded = np.pad(np.abs(values), half, mode="edge")
+    return np.lib.stride_tricks.sliding_window_view(padded, 2 * half + 1).max(axis=1)
+
+
 def fig7(simulation: Any, synthesis: Any) -> tuple[Any, dict[str, Any]]:
     """Modes with and without control, and the decay of the slowest."""
     t, modes = _base(simulation, "modes")
@@ -86,14 +93,14 @@ def fig7(simulation: Any, synthesis: Any) -> tuple[Any, dict[str, Any]]:
     }
     for ax, values in zip(axes, (modes, free), strict=True):
         for k, name in enumerate(names):
-            ax.plot(t, np.maximum(np.abs(values[:, k]), 1e-9), label=name, linewidth=0.6, **plotting.SERIES[k].line)
+            ax.plot(t, _envelope(values[:, k]), label=name, **plotting.SERIES[k].line)
         ax.set_yscale("log")
-        ax.set_ylim(1e-7, 0.1)
+        ax.set_ylim(2e-5, 0.1)
     peak = np.abs(modes).max()
     for (name, rate), style in zip(rates.items(), ("-", "--"), strict=True):
         axes[0].plot(t, peak * np.exp(-rate * t), color=plotting.GREY, linewidth=1.0, linestyle=style, label=name)
     for ax in axes:
-        ax.set_ylabel(plotting.axis_label("modal coordinate, modulus", r"kg$^{1/2}$ m"))
+        ax.set_ylabel(plotting.axis_label("modal amplitude", r"kg$^{1/2}$ m"))
     plotting.label_axes(axes[1], ("time", "s"))
     plotting.letter_panels(axes, ["with the printed controller", "without control"])
     plotting.legend_below(fig, axes, columns=3)
@@ -106,9 +113,14 @@ def _random(simulation: Any, hold: str) -> tuple[Any, dict[str, Any]]:
     fig, axes = plotting.subplots(1, 2, width=plotting.PAGE, height=62, sharey=True)
     curves = {}
     for ax, name in zip(axes, ("proposed", "ref39"), strict=True):
-        angles = np.clip(np.asarray(series[f"{name}/{hold}"]), -0.3, 0.3)
-        _lines(ax, t, angles, AXES)
-        curves |= {f"{name}, {axis}": (t, angles[:, k]) for k, axis in enumerate(AXES)}
+        angles = np.asarray(series[f"{name}/{hold}"])
+        gone = np.flatnonzero(np.abs(angles).max(axis=1) > LOST)
+        kept = slice(0, gone[0] + 1 if gone.size else len(t))
+        _lines(ax, t[kept], angles[kept], AXES)
+        if gone.size:
+            ax.text(t[gone[0]] + 3, 0.1, f"diverged at {t[gone[0]]:.0f} s", fontsize=6, va="center")
+        ax.set_xlim(0, t[-1])
+        curves |= {f"{name}, {axis}": (t[kept], angles[kept, k]) for k, axis in enumerate(AXES)}
         plotting.label_axes(ax, ("time", "s"), ("angle", "rad") if name == "proposed" else None)
         ax.set_ylim(-0.12, 0.12)
     plotting.letter_panels(axes, ["proposed gains", "gains of [39]"])
