@@ -103,16 +103,18 @@ def counts(papers: list[Paper]) -> str:
     """Return the booktabs table of verdict counts."""
     present_names = {name for paper in papers for name in paper.counts}
     order = [name for verdict in words.VERDICTS for name in (verdict, f"{verdict}-scan") if name in present_names]
-    heads = " & ".join(tex.escape(label(name)) for name in order)
+    stacked = [tex.escape(label(name)).replace(" ", r" \\ ") for name in order]
+    heads = " & ".join(rf"\shortstack[r]{{{words_of}}}" for words_of in stacked)
     lines = [
         r"% Needs \usepackage{booktabs}.",
+        r"\begingroup\small\setlength{\tabcolsep}{4pt}",
         rf"\begin{{tabular}}{{l{'r' * (len(order) + 1)}}}",
         r"\toprule",
         rf"paper & {heads} & claims \\",
         r"\midrule",
         *[rf"{p.key} & {' & '.join(str(p.counts.get(n, 0)) for n in order)} & {len(p.claims)} \\" for p in papers],
         r"\bottomrule",
-        r"\end{tabular}",
+        r"\end{tabular}\endgroup",
     ]
     return "\n".join([*lines, ""])
 
@@ -126,7 +128,8 @@ def table(paper: Paper) -> str:
     """Return the booktabs table of a paper's claims; it breaks over pages."""
     lines = [
         r"% Needs \usepackage{amsmath,booktabs,longtable}.",
-        r"\begin{longtable}{@{}lp{0.36\linewidth}p{0.2\linewidth}ll@{}}",
+        r"\begingroup\small\setlength{\tabcolsep}{4pt}",
+        r"\begin{longtable}{@{}p{0.15\linewidth}p{0.32\linewidth}p{0.25\linewidth}p{0.13\linewidth}l@{}}",
         r"\toprule place & claim & found & verdict & strength \\ \midrule \endhead",
         r"\bottomrule \endfoot",
     ]
@@ -141,7 +144,7 @@ def table(paper: Paper) -> str:
         )
         cells = [tex.escape(claim.where), tex.markdown(claim.title), value, tex.escape(claim.words.label)]
         lines.append(" & ".join([*cells, claim.strength or "--"]) + r" \\")
-    return "\n".join([*lines, r"\end{longtable}", ""])
+    return "\n".join([*lines, r"\end{longtable}\endgroup", ""])
 
 
 def bibliography(papers: list[Paper]) -> str:
