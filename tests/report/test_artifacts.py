@@ -48,6 +48,8 @@ def test_ambiguous_and_unknown_identities_say_what_there_is(tree: Path) -> None:
         UnknownNameError, match="is ambiguous; there are: fake2020/synthesis/lqr/sdp/solvers/CLARABEL/value"
     ):
         artifacts.lookup(tree, "fake2020/value")
+    with pytest.raises(UnknownNameError, match="is unknown; `recontrol show fake2020` and"):
+        artifacts.lookup(tree, "fake2020/nothing-of-the-kind")
     with pytest.raises(UnknownNameError, match="no paper 'nobody1999'"):
         artifacts.lookup(tree, "nobody1999/x")
 

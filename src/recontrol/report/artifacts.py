@@ -50,7 +50,8 @@ def lookup(root: Path, identity: str) -> Entry:
         return entries[found[0]]
     near = found or [other for other in entries if name.lower() in other.lower()]
     what = "is ambiguous" if found else "is unknown"
-    raise UnknownNameError(f"identity {identity!r} {what}" + (f"; there are: {', '.join(near[:6])}" if near else ""))
+    hint = f"there are: {', '.join(near[:6])}" if near else f"`recontrol show {key}` and results/index.json list them"
+    raise UnknownNameError(f"identity {identity!r} {what}; {hint}")
 
 
 def _of_paper(paper: Paper) -> Iterator[Entry]:
