@@ -64,3 +64,10 @@ rule merge:
 rule campaign:
     input:
         graph.ensembles(graph.papers, "campaign"),
+
+
+# Say how far the campaign has come while it runs.
+if workflow.is_main_process and "campaign" in sys.argv and not guard.only_looking(sys.argv[1:]):
+    from recontrol.pipeline.campaign import watch
+
+    watch(graph.campaigns(), config["campaign_chunks"])

@@ -8,7 +8,10 @@ Chunk k always draws the same members, whatever the size of the campaign and the
 from __future__ import annotations
 
 import argparse
+import sys
 import tempfile
+import threading
+import time
 from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
@@ -138,23 +141,35 @@ def _earlier(paper: Paper) -> list[Path]:
     return inputs.earlier(paper, "campaign")
 
 
-def progress(targets: list[str], chunks: int) -> str:
-    """How far a campaign has come, and an estimate of what remains from the benchmarks of its finished chunks."""
-    done = seconds = total = 0.0
-    for target in targets:
-        key, _, name = target.partition("/")
-        total += chunks
-        for chunk in range(chunks):
-            path = chunk_file(key, name, chunk)
-            if path.exists():
-                done += 1
-                benchmark = Path("run/benchmark", key, "ensemble", name, f"{path.stem}.tsv")
-                if benchmark.exists():
-                    seconds += float(benchmark.read_text().splitlines()[1].split("\t")[0])
-    if not done:
-        return f"0 of {total:.0f} chunks"
-    remaining = (total - done) * seconds / done
-    return f"{done:.0f} of {total:.0f} chunks; about {remaining:.0f} s of one core remain"
+def finished(targets: list[str], chunks: int) -> int:
+    """How many chunks of some campaigns (`paper/name`) are there."""
+    names = [target.split("/", 1) for target in targets]
+    return sum(chunk_file(key, name, chunk).exists() for key, name in names for chunk in range(chunks))
+
+
+def progress(targets: list[str], chunks: int, new: int = 0, seconds: float = 0.0) -> str:
+    """How far a campaign has come, and what remains at the pace of the `new` chunks of the last `seconds`."""
+    total, done = len(targets) * chunks, finished(targets, chunks)
+    text = f"campaign: {done} of {total} chunks"
+    if done == total or not new:
+        return text
+    remaining = (total - done) * seconds / new
+    return text + (
+        f", about {remaining:.0f} s remain" if remaining < 120 else f", about {remaining / 60:.0f} min remain"
+    )
+
+
+def watch(targets: list[str], chunks: int, every: float = 20.0) -> None:
+    """Print the progress of the running campaign now and then, from a thread that ends with the process."""
+    begin, first = time.monotonic(), finished(targets, chunks)
+
+    def show() -> None:
+        while True:
+            new = finished(targets, chunks) - first
+            print(progress(targets, chunks, new, time.monotonic() - begin), file=sys.stderr, flush=True)
+            time.sleep(every)
+
+    threading.Thread(target=show, daemon=True).start()
 
 
 def main(arguments: list[str]) -> int:

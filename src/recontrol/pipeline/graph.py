@@ -35,6 +35,10 @@ class Graph:
         names = [(key, name) for key in keys for name in self.papers[key].file.campaigns]
         return [str(distribution_file(*name, target, kind)) for name in names for kind in ("json", *FIGURE_FORMATS)]
 
+    def campaigns(self) -> list[str]:
+        """All campaigns as `paper/name`."""
+        return [f"{key}/{name}" for key, paper in self.papers.items() for name in paper.file.campaigns]
+
     @staticmethod
     def chunks(count: int) -> Callable[[Any], list[str]]:
         """Input function: the first `count` chunks of the wildcards' campaign."""
@@ -60,7 +64,7 @@ class Graph:
         for key in self.papers:
             found += [str(artifact(key, "verdicts")), str(artifact(key, "quantities"))]
             found += [name for stage in ("synthesis", "certificates") for name in self.stage(key, stage)]
-            found += self.figures(key)
+            found += self.figures(key) + self.ensembles([key])
             found += [f"papers/{key}/{name}" for name in ("paper.yaml", "claims.yaml", "NOTES.md")]
         return found
 
