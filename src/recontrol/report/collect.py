@@ -125,6 +125,16 @@ class Paper:
         return rows
 
     @cached_property
+    def ensembles(self) -> list[dict[str, Any]]:
+        """Distributions of the robustness campaigns named in paper.yaml, with the picture files that exist."""
+        folder, rows = self.results / "ensemble", []
+        for name in self.about.get("campaigns") or {}:
+            content = read_json(folder / f"{name}.json")
+            files = [suffix for suffix in ("svg", "pdf", "png", "csv") if (folder / f"{name}.{suffix}").is_file()]
+            rows.append({"name": name, "files": files, "content": content if isinstance(content, dict) else None})
+        return rows
+
+    @cached_property
     def notes(self) -> str:
         """The text of NOTES.md."""
         path = self.folder / "NOTES.md"

@@ -97,6 +97,9 @@ def _copy(paper: Paper, target: Path) -> None:
             _copy_file(
                 paper.root / "figures" / paper.key / f"{figure['name']}.{suffix}", target / "figures" / paper.key
             )
+    for ensemble in paper.ensembles:
+        for suffix in ensemble["files"]:
+            _copy_file(paper.results / "ensemble" / f"{ensemble['name']}.{suffix}", target / "ensembles" / paper.key)
     for name in paper.certificates:
         _copy_file(paper.results / "certificates" / f"{name}.json", target / "certificates" / paper.key)
 

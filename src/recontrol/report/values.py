@@ -55,6 +55,11 @@ def is_nested(value: Any) -> bool:
     return kind != "text" and not (kind == "matrix" and len(content) == 1 and len(content[0]) <= ROW)
 
 
+def quantile_text(ends: Any) -> str:
+    """Return the middle of a bracketed quantile to three digits; the bracket is about a percent wide."""
+    return one_line((ends[0] + ends[1]) / 2, 3)
+
+
 SOLVER_COLUMNS = {
     "solver": "solver",
     "outcome": "outcome",
