@@ -48,14 +48,15 @@ def abscissa(A: Array) -> Array:
     return np.linalg.eigvals(A).real.max(axis=1)
 
 
-def integral_square(A: Array, x0: Array, row: Array) -> Array:
-    """Integral of ``(row x)^2`` over 0..inf (runs,), from one Lyapunov equation a run; inf for an unstable matrix.
+def integral_square(A: Array, x0: Array, rows: Array) -> Array:
+    """Integral of ``|rows x|^2`` over 0..inf (runs,), from one Lyapunov equation a run; inf for an unstable matrix.
 
-    A: (runs, n, n); x0: (runs, n); row: (n,).
+    A: (runs, n, n); x0: (runs, n); rows: (n,) or (k, n).
     """
     n = A.shape[1]
     eye, out = np.eye(n), np.full(A.shape[0], np.inf)
-    constant = -np.outer(row, row).ravel()
+    rows = np.atleast_2d(rows)
+    constant = -(rows.T @ rows).ravel()
     stable = abscissa(A) < 0
     for part in blocks(A, n**3):
         keep = np.flatnonzero(stable[part]) + part.start
@@ -69,16 +70,16 @@ def integral_square(A: Array, x0: Array, row: Array) -> Array:
 
 
 def settling_and_peak(
-    A: Array, x0: Array, row: Array, *, step: float, samples: int, band: float
+    A: Array, x0: Array, rows: Array, *, step: float, samples: int, band: float
 ) -> tuple[Array, Array]:
-    """Last time [s] at which ``abs(row x)`` exceeds `band` times its own peak, and the peak; each (runs,).
+    """Last time [s] at which the largest ``abs(rows x)`` exceeds `band` times its own peak, and the peak; each (runs,).
 
-    The settling time is inf if the last sample is still outside.
+    A: (runs, n, n); x0: (runs, n); rows: (n,) or (k, n). The settling time is inf if the last sample is still outside.
     """
-    settling, peak = np.empty(x0.shape[0]), np.empty(x0.shape[0])
+    settling, peak, rows = np.empty(x0.shape[0]), np.empty(x0.shape[0]), np.atleast_2d(rows)
     for part in blocks(A, samples):
         with np.errstate(over="ignore", invalid="ignore"):
-            size = np.abs(trajectories(A[part], x0[part], step, samples) @ row)
+            size = np.abs(trajectories(A[part], x0[part], step, samples) @ rows.T).max(axis=2)
         peak[part] = size.max(axis=1)
         outside = size > band * peak[part, None]
         last = samples - 1 - np.argmax(outside[:, ::-1], axis=1)

@@ -1,0 +1,105 @@
+"""Robustness ensembles: a constant change of the gain of the printed size, and the rounding of gain and inertia.
+
+The gain is K + F M N with F uniform in -1..1, K uniform over its rounding box (half a unit of the fourth decimal where
+the print is not zero). Initial states: a uniform direction, of the length of the printed state. No disturbance.
+"""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+
+from recontrol.campaign.linear import abscissa, integral_square, settling_and_peak
+
+from . import plant
+
+STEPS = {"ext": (0.1, 1201), "trad": (2.0, 1601)}
+"""Sampling step [s] and number of samples: the second gain is some fifty times slower."""
+BAND = 0.05
+INERTIA_HALF_UNIT = 0.5  # kg m^2; the moments are printed as integers
+
+
+def starts(rng: Any, count: int, data: Any) -> np.ndarray:
+    """Initial states (count, 6): each of angles and rates [rad, rad/s] turned at random, its length kept."""
+    printed = data.float("x0")[0]
+    directions = rng.standard_normal((count, 2, 3))
+    directions /= np.linalg.norm(directions, axis=2, keepdims=True)
+    lengths = np.linalg.norm(printed.reshape(2, 3), axis=1)
+    return (directions * lengths[:, None]).reshape(count, 6)
+
+
+def boxed_gain(rng: Any, count: int, data: Any, gain: str) -> np.ndarray:
+    """Members (count, 3, 6) of the rounding box of a published gain."""
+    centre = data.float(plant.GAINS[gain])
+    half = float(data["half_unit"]) * (centre != 0)
+    return centre + half * rng.uniform(-1, 1, (count, 3, 6))
+
+
+def outcomes(A: np.ndarray, x0: np.ndarray, gain: str) -> dict[str, np.ndarray]:
+    """Settling time [s], largest angle [rad], integral of the squared angles [rad^2 s], spectral abscissa [1/s].
+
+    The first three are infinite for an unstable loop.
+    """
+    step, samples = STEPS[gain]
+    angles = np.eye(3, 6)
+    settling, peak = settling_and_peak(A, x0, angles, step=step, samples=samples, band=BAND)
+    rate = abscissa(A)
+    settling, peak = (np.where(rate < 0, value, np.inf) for value in (settling, peak))
+    return {"settling": settling, "peak": peak, "energy": integral_square(A, x0, angles), "abscissa": rate}
+
+
+def changed_gain(rng: Any, count: int, data: Any, gain: str) -> dict[str, np.ndarray]:
+    """Loops whose gain is off by F M N, F constant."""
+    found = plant.float_plant(data)
+    factor = rng.uniform(-1, 1, (count, 1, 1))
+    K = boxed_gain(rng, count, data, gain) + factor * (data.float("M") @ data.float("N"))
+    return outcomes(found["A"] + found["B1"] @ K, starts(rng, count, data), gain)
+
+
+def gain_ext(rng: Any, count: int, data: Any) -> dict[str, np.ndarray]:
+    """The extended gain, changed."""
+    return changed_gain(rng, count, data, "ext")
+
+
+def gain_ext_bounds(certificates: Any) -> dict[str, float]:
+    """Decay rate for every measurable F, as certificate `decay-ext` proves; constant F are among them."""
+    from recontrol.lmi.verify import check
+
+    from .certificates.bounds import DECAY_RATE
+
+    return {"abscissa": -float(DECAY_RATE)} if check(certificates["decay-ext"]).holds else {}
+
+
+def gain_trad(rng: Any, count: int, data: Any) -> dict[str, np.ndarray]:
+    """The traditional gain, changed."""
+    return changed_gain(rng, count, data, "trad")
+
+
+def inertia_ext(rng: Any, count: int, data: Any) -> dict[str, np.ndarray]:
+    """The extended gain over its box, moments of inertia over half a unit of their last digit."""
+    rate = float(plant.orbital_rate(data))
+    nominal = data.float("inertia")[0]
+    inertia = nominal + INERTIA_HALF_UNIT * rng.uniform(-1, 1, (count, 3))
+    low = np.zeros((count, 3, 6))
+    for i, row in enumerate(plant.torque_rows(inertia.T, rate)):
+        for j, entry in enumerate(row):
+            low[:, i, j] = entry
+    A = np.zeros((count, 6, 6))
+    A[:, :3, 3:] = np.eye(3)
+    A[:, 3:] = (low + boxed_gain(rng, count, data, "ext")) / inertia[:, :, None]
+    return outcomes(A, starts(rng, count, data), "ext")
+
+
+def inertia_ext_bounds(data: Any) -> dict[str, float | None]:
+    """Decay over the boxes of gain, moments and orbital rate, proven in balls."""
+    from flint import fmpq
+
+    from recontrol.campaign.bounds import decay_bound
+    from recontrol.exact.ball import ball
+    from recontrol.exact.rational import identity, zeros
+
+    inertia = [ball(j, fmpq(1, 2)) for j in plant.inertias(data)]
+    low = np.array(plant.torque_rows(inertia, plant.rate_interval(data)), dtype=object)
+    lower = (low + plant.gain_box(data, "ext")) * np.array([[1 / j] for j in inertia], dtype=object)
+    return {"abscissa": decay_bound(np.vstack([np.hstack([zeros(3), identity(3)]), lower]))}
