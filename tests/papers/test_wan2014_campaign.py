@@ -1,0 +1,56 @@
+"""The ensemble of wan2014 against single runs of the published loop."""
+
+from __future__ import annotations
+
+import inspect
+
+import numpy as np
+import pytest
+
+from papers.wan2014 import campaign, model
+from papers.wan2014.loop import simulate
+from papers.wan2014.simulation.metrics import make_batch, target_orbit
+from recontrol import paper
+from recontrol.pipeline.campaign import generator
+from tests.conftest import ROOT
+
+FOLDER = paper.load(ROOT / "papers/wan2014")
+DATA = FOLDER.data
+MODEL = model.model(**dict.fromkeys(inspect.signature(model.model).parameters, DATA))
+
+
+class Nominal:
+    """Deviates in the middle: printed eccentricity, opposite anomaly, no velocity error."""
+
+    def uniform(self, low, high, shape):
+        return np.zeros(shape) if isinstance(shape, tuple) else np.full(shape, (low + high) / 2)
+
+    def standard_normal(self, shape):
+        return np.ones(shape)
+
+
+def test_outcomes_are_finite_and_named_in_paper_yaml():
+    found = campaign.start(generator(1, 0), 20, DATA, MODEL)
+    assert set(found) == set(FOLDER.file.campaigns["start"].outcomes)
+    assert all(np.all(np.isfinite(values)) and values.shape == (20,) for values in found.values())
+
+
+def test_undisturbed_start_is_a_single_run_of_the_loop():
+    found = campaign.start(Nominal(), 2, DATA, MODEL)
+    run = {"estimate": "xhat0_x0", "anomaly": np.pi, "orbit": target_orbit(DATA)}
+    single = simulate(make_batch(DATA, MODEL, [run]), np.array([0.0, campaign.HORIZON]))
+    # Relative tolerance 1e-8 there against 1e-11 here.
+    assert found["distance"] == pytest.approx([np.linalg.norm(single["state"][:3, -1, 0])] * 2, rel=1e-5)
+    assert found["cost"] == pytest.approx([single["cost"][-1, 0]] * 2, rel=1e-6)
+
+
+def test_velocity_errors_stay_in_the_ball(monkeypatch):
+    kept = []
+    monkeypatch.setattr(
+        campaign, "make_batch", lambda data, model, runs: kept.extend(runs) or make_batch(data, model, runs)
+    )
+    campaign.start(generator(5, 0), 30, DATA, MODEL)
+    exact = campaign.estimates(DATA)["xhat0_x0"]
+    sizes = [np.linalg.norm(run["estimate"] - exact) for run in kept]
+    assert 2.0 < max(sizes) <= campaign.VELOCITY_BALL
+    assert max(run["orbit"].eccentricity for run in kept) <= 2 * DATA.float("e")
