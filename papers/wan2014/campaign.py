@@ -1,4 +1,4 @@
-"""Robustness ensemble of the two-body motion: where the rendezvous starts, on which orbit, and how wrong the observer is.
+"""Robustness ensemble of the two-body motion: start of the rendezvous, orbit, and error of the observer.
 
 Printed K, corrected L, thrust not clipped. The proven bounds of this folder are about the linear model
 of the paper and do not cover the two-body motion, so none stands beside these distributions.
