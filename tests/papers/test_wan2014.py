@@ -163,6 +163,13 @@ def test_same_lyapunov_matrix_for_both_is_refused():
     assert problem.solve().outcome == "infeasible"
 
 
+def test_error_that_never_decays_has_no_last_time():
+    times = np.arange(3.0)
+    assert metrics.last_above(times, np.array([0.0, 0.5, 0.9]), 1.0) == 0.0
+    assert metrics.last_above(times, np.array([0.0, 2.0, 2.0]), 1.0) is None
+    assert metrics.last_above(times, np.array([2.0, 2.0, 0.0]), 1.0) == 1.5
+
+
 def test_two_routes_of_the_simulation_agree_over_ten_minutes():
     runs = [{"estimate": "xhat0_r0"}, {"estimate": "xhat0_zero", "clip": True}]
     batch = metrics.make_batch(data(), plant(), runs)

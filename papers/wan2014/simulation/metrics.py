@@ -48,9 +48,11 @@ def make_batch(data: Any, model: Any, runs: list[dict[str, Any]]) -> Batch:
 
 
 def last_above(times: Array, values: Array, level: float) -> float | None:
-    """Last time [s] at which `values` exceeds `level`, interpolated; None if never, or still at the end."""
+    """Last time [s] at which `values` exceeds `level`, interpolated; 0 if never, None if still at the end."""
     above = np.flatnonzero(values > level)
-    if not above.size or above[-1] == len(values) - 1:
+    if not above.size:
+        return 0.0
+    if above[-1] == len(values) - 1:
         return None
     k = above[-1]
     return float(times[k] + (times[k + 1] - times[k]) * (values[k] - level) / (values[k] - values[k + 1]))
@@ -72,7 +74,7 @@ def metrics(times: Array, found: dict[str, Array], k: int) -> dict[str, Any]:
         "saturated_fraction": (np.abs(command - applied)[:, early] > 0).mean(axis=1) if early.any() else np.zeros(3),
         "velocity_error_peak": float(error.max()),
         "velocity_error_30s": float(error[at[30]]),
-        "velocity_error_time": last_above(times, error, 0.05) or 0.0,
+        "velocity_error_time": last_above(times, error, 0.05),
         "peak_velocity": np.abs(state[3:]).max(axis=1),
         "distance_3000s": float(distance[at[3000]]),
         "speed_3000s": float(speed[at[3000]]),
