@@ -81,7 +81,7 @@ def squared_thrust(gamma: Any) -> Any:
 def _units(values: dict[str, Any], e0_has_position: bool, cost: fmpq) -> dict[str, Any]:
     state = state_units(e0_has_position)
     scaled = rational.to_float(values["b"]) * rational.to_float(np.array(state, dtype=object))
-    channels = [power_of_two(float(cost * 1) / float(158 * (row @ row))) for row in scaled]
+    channels = [power_of_two(float(cost) / float(row @ row * rational.to_float(1 / Scale.rate))) for row in scaled]
     return {"P": ([cost / s for s in state], [1 / s for s in state]), "D": (channels, [fmpq(1)] * CHANNELS)}
 
 

@@ -101,7 +101,7 @@ def observer_blocks(synthesis: Any) -> tuple[Any, Curves]:
     return figure, {"margin": (rank.astype(float), values)}
 
 
-def fig4_zero(simulation: Any) -> tuple[Any, Curves]:
+def fig4_zero(data: Any, simulation: Any) -> tuple[Any, Curves]:
     """Thrust commanded if the observer starts from zero, against the limits, log scale."""
     series = simulation["main"]["series"]
     figure, ax = plotting.subplots(height=66)
@@ -112,8 +112,9 @@ def fig4_zero(simulation: Any) -> tuple[Any, Curves]:
         y = np.abs(series["xhat0_zero_command"][i, shown])
         ax.plot(t, np.maximum(y, 1e-2), label=f"|thrust {name}|", **SERIES[i].line)
         curves[f"command {name}"] = (t, y)
-    ax.axhline(40, color=GREY, linewidth=0.9, label="limit 40 N (x, y)")
-    ax.axhline(20, color=GREY, linewidth=0.9, linestyle=":", label="limit 20 N (z)")
+    _, in_plane, out_of_plane = data.float("u_max")[0]
+    ax.axhline(in_plane, color=GREY, linewidth=0.9, label=f"limit {in_plane:g} N (x, y)")
+    ax.axhline(out_of_plane, color=GREY, linewidth=0.9, linestyle=":", label=f"limit {out_of_plane:g} N (z)")
     ax.set_yscale("log")
     ax.set_ylim(0.05, 3000)
     plotting.label_axes(ax, ("time", "s"), ("thrust commanded", "N"))

@@ -10,7 +10,6 @@ from recontrol import plotting
 from recontrol.plotting import GREY, PAGE, SERIES
 
 Curves = dict[str, tuple[np.ndarray, np.ndarray]]
-LIMITS = (40.0, 40.0, 20.0)  # N
 
 
 def fig2(simulation: Any) -> tuple[Any, Curves]:
@@ -47,12 +46,13 @@ def fig3(simulation: Any) -> tuple[Any, Curves]:
     return figure, curves
 
 
-def fig4(simulation: Any) -> tuple[Any, Curves]:
+def fig4(data: Any, simulation: Any) -> tuple[Any, Curves]:
     """Thrusts with their bounds: 6000 s and 60 s, observer started from the position and from the state."""
     series = simulation["main"]["series"]
     figure, axes = plotting.subplots(2, 2, width=PAGE, height=104)
     curves: Curves = {}
     titles = []
+    _, in_plane, out_of_plane = data.float("u_max")[0]
     for row, (case, words) in zip(
         axes, (("xhat0_r0", "start at the position"), ("xhat0_x0", "start at the state")), strict=True
     ):
@@ -62,9 +62,9 @@ def fig4(simulation: Any) -> tuple[Any, Curves]:
                 t, y = series["time"][shown], series[f"{case}_command"][i, shown]
                 ax.plot(t, y, label=f"thrust {name}", **SERIES[i].line)
                 curves[f"{case}, {name} to {end:.0f} s"] = (t, y)
-            for level, style in ((40, "-"), (20, ":")):
+            for level, axes_words, style in ((in_plane, "x, y", "-"), (out_of_plane, "z", ":")):
                 for sign in (1, -1):
-                    label = f"bound {level} N ({'x, y' if level == 40 else 'z'})" if sign > 0 else None
+                    label = f"bound {level:g} N ({axes_words})" if sign > 0 else None
                     ax.axhline(sign * level, color=GREY, linewidth=0.8, linestyle=style, label=label)
             plotting.label_axes(ax, ("time", "s"), ("thrust", "N"))
             titles.append(f"{words}, {end:.0f} s")

@@ -29,7 +29,7 @@ def _enclosures(certificates: Any) -> dict[str, fmpq]:
     }
 
 
-def _certified(certificates: Any) -> dict[str, dict[str, Any]]:
+def _certified(data: Any, certificates: Any) -> dict[str, dict[str, Any]]:
     """Costs (exact, SI) and thrusts (float from the exact square) of the certificates."""
     cost = {
         case: Scale.cost * verify.number(certificates[f"cost_{case}"]["bound"]["value"])
@@ -37,9 +37,9 @@ def _certified(certificates: Any) -> dict[str, dict[str, Any]]:
     }
     thrust = {}
     for case in ("e0_zero", "e0_velocity"):
-        for axis, limit in zip("xyz", (40, 40, 20), strict=True):
+        for axis, limit in zip("xyz", data.float("u_max")[0], strict=True):
             square = verify.number(certificates[f"thrust_{case}_{axis}"]["bound"]["value"])
-            thrust[f"{case}_{axis}"] = limit * float(float(square.p) / float(square.q)) ** 0.5
+            thrust[f"{case}_{axis}"] = float(limit) * float(float(square.p) / float(square.q)) ** 0.5
     return {"cost_bound_certified": cost, "thrust_bound_certified": thrust}
 
 
@@ -103,7 +103,7 @@ def quantities(data: Any, synthesis: Any, certificates: Any) -> dict[str, Any]:
         "observers_compatible": ", ".join(synthesis["arrangements"]["survivors"]),
         "cost_bound": {name: float(entry["bound"]) for name, entry in repaired["cost"].items()},
         "thrust_bound": {name: float(v) for name, v in repaired["thrust"].items()},
-        **_certified(certificates),
+        **_certified(data, certificates),
         "bounds_other_gains": {
             f"{gain}, {case}, {what}": None if v is None else float(v)
             for gain, cases in synthesis["other_gains"].items()

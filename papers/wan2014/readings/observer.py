@@ -92,15 +92,15 @@ def req_i(certificates: Any, case: str) -> Result:
     return Result(certified(certificates[f"stable_{case}"]), {}, f"stable_{case}")
 
 
-def req_iii(certificates: Any, case: str) -> Result:
+def req_iii(data: Any, certificates: Any, case: str) -> Result:
     """u_max minus the proven bound of each axis, from the certificates; a margin of the squares, exact."""
     margins, evidence = {}, {}
-    for axis, limit in zip("xyz", (40, 40, 20), strict=True):
+    for axis, limit in zip("xyz", data.float("u_max")[0], strict=True):
         certificate = certificates[f"thrust_{case}_{axis}"]
         found = verify.check(certificate)
         square = verify.number(certificate["bound"]["value"])
         margins[f"1 - (bound/u_max)^2, {axis}"] = (fmpq(1) - square) if found.holds else ball.ball(0, 1)
-        evidence[f"bound {axis} [N]"] = limit * float(rational.to_float(square)) ** 0.5
+        evidence[f"bound {axis} [N]"] = float(limit) * float(rational.to_float(square)) ** 0.5
     return Result(Statement(margins), evidence, f"thrust_{case}_x")
 
 

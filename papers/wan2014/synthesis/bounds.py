@@ -9,11 +9,15 @@ import numpy as np
 from recontrol.exact import rational
 
 from .. import rep
-from ..problems import rendezvous
+from ..problems import AXES, rendezvous
 from .gains import COST_UNIT, summary
 
 CASES = ("e0_zero", "e0_velocity", "e0_full")
-LIMITS = {"x": 40.0, "y": 40.0, "z": 20.0}
+
+
+def limits(data: Any) -> dict[str, float]:
+    """Largest thrust by axis [N]."""
+    return dict(zip(AXES, data.float("u_max")[0].tolist(), strict=True))
 
 
 def repaired(data: Any) -> dict[str, Any]:
@@ -31,7 +35,7 @@ def repaired(data: Any) -> dict[str, Any]:
                     "bound": found["CLARABEL"].value * COST_UNIT if found["CLARABEL"].value else None,
                     "solvers": {s: {"value": f.value, "outcome": f.outcome} for s, f in found.items()},
                 }
-        for axis, limit in LIMITS.items():
+        for axis, limit in limits(data).items():
             solution = rep.thrust_problem(data, name, axis).solve(margin="1e-7")
             thrust[f"{case}_{axis}"] = limit * float(np.sqrt(solution.value)) if solution.value else None
     same = rep.cost_problem(data, "L_corrected, e0_zero", shape="same", spread=True).solve()
@@ -47,7 +51,7 @@ def bounds_of_gain(data: Any, K: np.ndarray) -> dict[str, Any]:
         problem = rep.cost_problem(data, f"L_corrected, {case}", shape="block", spread=True, values=values)
         solution = problem.solve()
         found[case] = {"cost": solution.value * COST_UNIT if solution.value else None}
-        for axis, limit in LIMITS.items():
+        for axis, limit in limits(data).items():
             answer = rep.thrust_problem(data, f"L_corrected, {case}", axis, values=values).solve(margin="1e-7")
             found[case][axis] = limit * float(np.sqrt(answer.value)) if answer.value else None
     return found
