@@ -192,21 +192,26 @@ def thm2_refs_25() -> Size:
     return Size(size, size)
 
 
+def eq29(s: SimpleNamespace, corner: Any) -> np.ndarray:
+    """The matrix of (29) with a given corner."""
+    return block([[corner, s.xi.T], [-block([[s.X, 0], [s.X]])]])
+
+
 def eq29_sign() -> Statement:
     """A negative definite matrix has negative diagonal entries; the printed corner is +rho, rho > 0."""
-    return Statement({"minus the corner, at rho = 1": fmpq(-1)})
+    s = draw()
+    return Statement({"minus the corner of (29)": -eq29(s, s.rho)[0, 0]})
 
 
 def eq29_minus() -> Identity:
     s = draw()
     inverse = linalg.inverse(block([[s.P, 0], [s.P]]))
-    corrected = block([[-s.rho, s.xi.T], [-inverse]])
-    return Identity(corrected, block([[-s.rho, s.xi.T], [-block([[s.X, 0], [s.X]])]]))
+    return Identity(eq29(s, -s.rho), block([[-s.rho, s.xi.T], [-inverse]]))
 
 
 def eq30() -> Identity:
     s = draw()
-    eq15 = block([[-s.rho, s.xi.T], [-block([[s.X, 0], [s.X]])]])
+    eq15 = eq29(s, -s.rho)
     T = block([[1 / s.rho, 0], [identity(12)]])
     return Identity(T @ eq15 @ T, -conditions.eq30(s.X, 1 / s.rho, xi0=s.xi))
 
