@@ -22,7 +22,7 @@ RUNS = {
 }
 
 
-def settling(simulation: Any) -> tuple[Any, Curves]:
+def settling(data: Any, simulation: Any) -> tuple[Any, Curves]:
     """Largest angle of the four linear runs, the thresholds, and the two times that the paper names."""
     fig, ax = plotting.subplots(height=78)
     series, curves = simulation["linear"]["series"], {}
@@ -30,15 +30,16 @@ def settling(simulation: Any) -> tuple[Any, Curves]:
         t, y = series[f"{run}.t_all"], np.maximum(series[f"{run}.largest"], 1e-9)
         ax.semilogy(t, y, label=words, **style.line)
         curves[words] = (t, y)
+    initial = np.abs(data.float("x0")[0, :3]).max()
     for percent in (5, 2, 1, 0.1):
-        level = percent / 100 * 0.1
+        level = percent / 100 * initial
         ax.axhline(level, color=plotting.PALE, linewidth=0.6, zorder=0.8)
         ax.annotate(
             f"{percent:g} %", (600, level), xytext=(1, 0), textcoords="offset points", va="center", fontsize=5.5
         )
-    for time in (20, 200):
+    for time in (float(data[name]) for name in ("max_time_ext", "max_time_trad")):
         ax.axvline(time, color=plotting.GREY, linewidth=0.6, linestyle=(0, (1, 2)))
-        ax.annotate(f"{time} s", (time, 2e-6), xytext=(2, 0), textcoords="offset points", fontsize=6)
+        ax.annotate(f"{time:g} s", (time, 2e-6), xytext=(2, 0), textcoords="offset points", fontsize=6)
     ax.set_ylim(1e-6, 1e3)
     ax.set_xlim(0, 600)
     plotting.label_axes(ax, ("time", "s"), ("largest angle", "rad"))

@@ -70,6 +70,7 @@ class Loop:
         self.K = self.plant[plant.GAINS[gain]]
         self.A = self.plant["A"] + self.plant["B1"] @ self.K
         self.x0 = data.float("x0")[0]
+        self.largest_angle = float(np.abs(self.x0[:3]).max())
         self.times = np.linspace(0.0, HORIZON, round(HORIZON / STEP) + 1)
         self.amplitude = float(data["d_amplitude"])
         self.d_phases = np.pi * data.float("d_phases")[0]
@@ -121,7 +122,7 @@ class Loop:
 
     def measures(self, x: np.ndarray, shape: str | None, case: str) -> dict[str, Any]:
         """See `simulation.measures`."""
-        return measures(self.times, x, *self.outputs(x, shape, case))
+        return measures(self.times, x, *self.outputs(x, shape, case), self.largest_angle)
 
     def energy(self, case: str) -> float:
         """Integral of |z2|^2 over 1200 s [rad^2 s], Simpson's rule."""

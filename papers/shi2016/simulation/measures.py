@@ -7,9 +7,6 @@ from typing import Any
 import numpy as np
 
 FRACTIONS = ("0.05", "0.02", "0.01", "0.001")
-REFERENCE = 0.1
-"""Initial angle of every axis [rad]: the reference of `of-x0`."""
-
 TIMES = (20.0, 50.0, 200.0, 600.0)
 
 
@@ -30,11 +27,14 @@ def settling(times: np.ndarray, largest: np.ndarray, reference: float) -> dict[s
     return out
 
 
-def measures(times: np.ndarray, x: np.ndarray, u: np.ndarray, z: np.ndarray) -> dict[str, Any]:
-    """Settling times and peaks of one run: states x (N, 6), torques u (N, 3) [N m], output z_inf z (N, 3)."""
+def measures(times: np.ndarray, x: np.ndarray, u: np.ndarray, z: np.ndarray, initial: float) -> dict[str, Any]:
+    """Settling times and peaks of one run: states x (N, 6), torques u (N, 3) [N m], output z_inf z (N, 3).
+
+    ``initial`` is the largest initial angle [rad], the reference of `of-x0`.
+    """
     largest = np.abs(x[:, :3]).max(axis=1)
     found = {
-        "of_x0": settling(times, largest, REFERENCE),
+        "of_x0": settling(times, largest, initial),
         "of_peak": settling(times, largest, float(largest.max())),
         "peak_angle": float(largest.max()),
         "peak_rate": float(np.abs(x[:, 3:]).max()),

@@ -66,4 +66,4 @@ def _measures(loop: Loop, times: np.ndarray, x: np.ndarray, shape: str | None) -
     if shape is not None:
         u += np.sin(loop.frequency * times + loop.phase)[:, None] * (x @ loop.rows[shape].T)
     z = loop.weight * (u + x @ loop.plant["low"].T + loop.d(times, DEFAULT_DISTURBANCE))
-    return measures(times, x, u, z)
+    return measures(times, x, u, z, loop.largest_angle)
