@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import Any
 
+import numpy as np
 from flint import arb, fmpq
 
 from recontrol.claims.values import Identity, Result, Statement
@@ -171,13 +172,26 @@ def output_matrix() -> Identity:
     return Identity(printed, weight * inertia * acceleration)
 
 
-def least_gamma(synthesis: Any) -> Result:
-    """No gamma is printed; the gain at infinite frequency is that of D2, so gamma_inf > 1e-3 is necessary for (8)."""
+def least_gamma(data: Any, synthesis: Any) -> Result:
+    """No gamma is printed; the gain at infinite frequency is that of D2, so gamma_inf > 1e-3 is necessary for (8).
+
+    For any X and W, (8) contains [-gamma, D2; D2', -gamma] on each axis; at gamma = 1e-3 its determinant vanishes.
+    """
+    from recontrol.exact.rational import identity
+
+    from .. import conditions
+
+    si = plant.matrices(data, plant.exact_rate(data))
+    level, zero = data["z_weight"], 0 * data["K_ext"]
+    plants = {name: si[name] for name in ("A", "B1", "B2", "C1", "D1", "D2")}
+    pair = conditions.brl(identity(6), zero, **plants, gamma=level)[np.ix_([6, 9], [6, 9])]
     found = {
         f"H-infinity norm, K_{gain}, lower bound": synthesis["norms"]["Re-equatorial"][gain]["hinf"]["lower"]
         for gain in plant.GAINS
     }
-    return Result(fmpq(1, 1000), {"gamma_inf must exceed": fmpq(1, 1000)} | found)
+    determinant = pair[0, 0] * pair[1, 1] - pair[0, 1] * pair[1, 0]
+    found["determinant of the block of d and z of (8) at 1e-3 (must be positive)"] = determinant
+    return Result(level, {"gamma_inf must exceed": level} | found)
 
 
 def definition2(synthesis: Any) -> Result:
