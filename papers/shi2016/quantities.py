@@ -133,6 +133,13 @@ def _designs(synthesis: Any) -> Table:
             name: "none" if found["effort"] is None else found["effort"]
             for name, found in synthesis["nonfragile"]["least_effort"].items()
         },
+        "printed_design_words": {
+            f"g = {g}, {solver}": words
+            for g, found in synthesis["single"]["print"].items()
+            if "least_effort" in found
+            for solver, words in found.items()
+            if solver != "least_effort"
+        },
         "printed_least_effort": {
             g: found["least_effort"] for g, found in synthesis["single"]["print"].items() if "least_effort" in found
         },
