@@ -7,7 +7,7 @@ import os
 from pathlib import Path
 
 import pytest
-from conftest import ROOT, Project, make_project
+from projects import ROOT, Project, make_project
 
 from recontrol import paper as papers
 from recontrol.claims import schema, sensitivity

@@ -14,7 +14,7 @@ import time
 from pathlib import Path
 
 import pytest
-from conftest import ROOT, Project, make_project
+from projects import ROOT, Project, make_project
 
 from recontrol import paper as papers
 

@@ -6,7 +6,7 @@ import json
 import subprocess
 import sys
 
-from conftest import ROOT, make_project
+from projects import ROOT, make_project
 
 from recontrol import contract
 
