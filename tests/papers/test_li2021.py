@@ -74,29 +74,48 @@ def test_theorem_1_covers_every_vertex_of_the_uncertainty(data):
         assert np.linalg.eigvalsh(disk)[-1] < 0
 
 
-def test_theorem_1_is_lemma_3_with_lemma_1(data):
-    # (13) minus nothing: its Schur complement dominates (15) for each diagonal F and Delta H; here as an exact identity
-    # for zero multiplier channels, by another assembly of (15) through the loop and the congruence.
-    t = problem_data(data, "proposed")
-    rng = np.random.default_rng(2)
-    S, N = symmetric(rng, 6), symmetric(rng, 6)
-    A_f, B_f, C_f = fractions(rng, 6, 6), fractions(rng, 6, 3), fractions(rng, 3, 6)
-    nothing = 0 * identity(12)
-    whole = full_rows(t, S, N, A_f, B_f, C_f, (nothing, nothing))
+def turned_and_reduced(whole):
+    """The congruence with Gamma1 and the Schur complement of the output block (which is -I) of 36 rows: 33 rows."""
     one = identity(6)
     Gamma1 = np.block([[one, one], [one, 0 * one]])
     T = 0 * identity(36)
     T[:12, :12] = T[24:, 24:] = Gamma1
     T[12:24, 12:24] = identity(12)
     turned = T.T @ whole @ T
-    output = slice(21, 24)
-    rest = [*range(21), *range(24, 36)]
-    reduced = turned[np.ix_(rest, rest)] + turned[rest, output] @ turned[output, rest]  # that block is -I
+    output, rest = slice(21, 24), [*range(21), *range(24, 36)]
+    return turned[np.ix_(rest, rest)] + turned[rest, output] @ turned[output, rest]
+
+
+@pytest.fixture(scope="module")
+def theorem_1(data):
+    """A random point of (13) with unit multipliers, and what builds (15) there by the other route."""
+    t = problem_data(data, "proposed")
+    rng = np.random.default_rng(2)
+    S, N = symmetric(rng, 6), symmetric(rng, 6)
+    A_f, B_f, C_f = fractions(rng, 6, 6), fractions(rng, 6, 3), fractions(rng, 3, 6)
     names = ("A", "B", "C", "L", "K", "W", "a", "b", "delta_m")
     body = c.eq13(
         S, N, N @ A_f, N @ B_f, fmpq(9, 4), identity(12), identity(12), fmpq(100), C_f=C_f, **{k: t[k] for k in names}
     )
-    assert (body[:33, :33] == reduced).all()
+    return body, lambda F, H: turned_and_reduced(full_rows(t, S, N, A_f, B_f, C_f, (F, H))), t["delta_m"]
+
+
+def test_certain_part_of_theorem_1_is_lemma_3_after_the_congruence(theorem_1):
+    body, other, _ = theorem_1
+    nothing = 0 * identity(12)
+    assert (body[:33, :33] == other(nothing, nothing)).all()
+
+
+def test_uncertain_columns_of_theorem_1_give_every_perturbation(theorem_1):
+    # (16): what F and Delta H add to (15) is U F V' + V F U' with the columns U, V that (13) holds, exactly.
+    body, other, delta_m = theorem_1
+    rng = np.random.default_rng(5)
+    F, H = (np.diag(fractions(rng, 1, 12)[0]) for _ in range(2))
+    F, H = (M + 0 * identity(12) for M in (F, H))
+    nothing = 0 * identity(12)
+    U_H, V_H, U_F, V_F = (body[:33, k : k + 12] for k in (33, 45, 57, 69))
+    due = U_H @ H @ V_H.T + (U_F @ F @ V_F.T) / delta_m
+    assert (other(F, H) - other(nothing, nothing) == due + due.T).all()
 
 
 def test_state_feedback_step_is_a_compression_of_theorem_1(data):
