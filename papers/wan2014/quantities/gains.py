@@ -43,6 +43,12 @@ def _certified(data: Any, certificates: Any) -> dict[str, dict[str, Any]]:
     return {"cost_bound_certified": cost, "thrust_bound_certified": thrust}
 
 
+def _spread(solvers: dict[str, Any]) -> float | None:
+    """Relative difference of the two solvers of one bound; None if only one gave a value."""
+    values = [float(found["value"]) for found in solvers.values() if found["value"]]
+    return max(values) / min(values) - 1 if len(values) > 1 else None
+
+
 def _intervals(synthesis: Any) -> dict[str, float]:
     found, rows = synthesis["intervals"], {}
     for problem in ("SF", "CO"):
@@ -102,6 +108,11 @@ def quantities(data: Any, synthesis: Any, certificates: Any) -> dict[str, Any]:
         "n_interval": _intervals(synthesis),
         "observers_compatible": ", ".join(synthesis["arrangements"]["survivors"]),
         "cost_bound": {name: float(entry["bound"]) for name, entry in repaired["cost"].items()},
+        "cost_bound_spread": {
+            name: spread
+            for name, entry in repaired["cost"].items()
+            if (spread := _spread(entry["solvers"])) is not None
+        },
         "thrust_bound": {name: float(v) for name, v in repaired["thrust"].items()},
         **_certified(data, certificates),
         "bounds_other_gains": {
