@@ -58,13 +58,13 @@ KINDS = {
 }
 
 
-def rho_gamma(synthesis: Any) -> tuple[Any, Curves]:
+def rho_gamma(data: Any, synthesis: Any) -> tuple[Any, Curves]:
     """Least rho at the published gains over gamma_inf against the squared H2 norm: Theorem 2 falls below it."""
     fig, axes = plotting.subplots(1, 2, width=plotting.PAGE, height=72, sharey=True)
     curves: Curves = {}
     for ax, gain in zip(axes, ("ext", "trad"), strict=True):
         found = synthesis["fixed-gain"][gain]
-        excess = found["levels"] * 1e-3 - 1e-3
+        excess = (found["levels"] - 1) * float(data["z_weight"])
         for kind, (words, style) in KINDS.items():
             rho = _middle(found[kind]["rho"])
             ax.loglog(excess, rho, label=words, marker=style.marker, markersize=3, **style.line)
@@ -108,7 +108,7 @@ def pareto(data: Any, synthesis: Any) -> tuple[Any, Curves]:
     return fig, curves
 
 
-def conservatism(synthesis: Any) -> tuple[Any, Curves]:
+def conservatism(data: Any, synthesis: Any) -> tuple[Any, Curves]:
     """Certified and true gamma2 at the effort of K_ext over the level gamma_inf."""
     fig, ax = plotting.subplots(height=72)
     curves: Curves = {}
@@ -117,7 +117,7 @@ def conservatism(synthesis: Any) -> tuple[Any, Curves]:
         "two $X$ and a slack": synthesis["dilated"]["levels"],
     }
     for k, (name, table) in enumerate(tables.items()):
-        excess = np.array([float(g) - 1 for g in table]) * 1e-3
+        excess = np.array([float(g) - 1 for g in table]) * float(data["z_weight"])
         style = plotting.SERIES[k]
         for what, key, line in (("certified", "certified", style.linestyle), ("true", "h2", "none")):
             values = np.array([float(found[key]) for found in table.values()])
@@ -214,5 +214,5 @@ def _excess(data: Any, gain: str, frequency: np.ndarray) -> np.ndarray:
     for k, w in enumerate(frequency):
         R = V @ np.linalg.solve(1j * w * np.eye(6) - loop, si["B2"])
         top = np.linalg.eigvalsh(R + R.conj().T + R.conj().T @ R)[-1]
-        out[k] = 1e-3 * top / (1 + np.sqrt(1 + top))
+        out[k] = float(data["z_weight"]) * top / (1 + np.sqrt(1 + top))
     return out
