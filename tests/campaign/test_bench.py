@@ -1,4 +1,4 @@
-"""The benchmark refuses to time methods that disagree, and the ensembles are as fast as promised."""
+"""The benchmark refuses to time methods that disagree. Its ratios are shown in docs/performance.md, never tested."""
 
 from __future__ import annotations
 
@@ -14,11 +14,9 @@ bench = importlib.util.module_from_spec(SPEC)
 SPEC.loader.exec_module(bench)
 
 
-def test_methods_agree_and_the_plain_loop_is_a_hundred_times_slower():
-    loops = bench.printed_loops(4)
-    bench.agreement(*loops)
-    ours, plain = bench.rate(bench.batched, *bench.printed_loops(300)), bench.rate(bench.solve_ivp_loop, *loops)
-    assert ours > bench.REQUIRED * plain
+def test_methods_agree_on_the_printed_loops():
+    deviations = bench.agreement(*bench.printed_loops(4))
+    assert deviations is None or set(deviations) == set(bench.OTHERS)
 
 
 def test_disagreement_stops_the_benchmark(monkeypatch):

@@ -5,6 +5,7 @@ from __future__ import annotations
 from types import SimpleNamespace
 
 import numpy as np
+import sympy
 import pytest
 from flint import acb, arb, fmpq, fmpq_poly
 from hypothesis import given, settings
@@ -110,6 +111,8 @@ def test_statement(value, expected):
 
 
 def test_identity_is_exact_and_refuses_floats():
+    x = sympy.Symbol("x")
+    assert agrees("a = b", Identity((x + 1) ** 2, x**2 + 2 * x + 1), "identity") == "yes"
     assert agrees("a = b", Identity(fmpq_poly([1, 2]), fmpq_poly([1, 2])), "identity") == "yes"
     assert agrees("a = b", Identity(fmpq(1, 3), fmpq(333, 1000)), "identity") == "no"
     with pytest.raises(ValueContractError):

@@ -1,4 +1,4 @@
-"""What proving costs, in counts and ratios that hold on any machine."""
+"""The cost table: its problems are enclosed, its rows and page are written. Times are shown there, never tested."""
 
 import pytest
 
@@ -6,14 +6,10 @@ from recontrol.lmi import bench
 
 
 @pytest.mark.parametrize("n", [3, 12])
-def test_proving_costs_at_most_ten_solves_and_verifying_less_than_one(n):
-    bench.measure(2)  # the first solve of a process pays for imports
+def test_both_bounds_are_proven_closely(n):
     cost = bench.measure(n)
     assert cost.width is not None
     assert cost.width < 1e-5
-    assert cost.verify < cost.solve
-    # Both bounds with the solves they need. Small problems are all overhead of starting solvers.
-    assert cost.prove < 10 * cost.solve + 0.5
 
 
 def test_the_largest_routine_size_is_enclosed():

@@ -42,11 +42,12 @@ def _equal_symbolic(left: Any, right: Any) -> bool:
             return False
         return all(_equal_symbolic(a, b) for a, b in zip(left, right, strict=True))
     try:
-        difference = sympy.sympify(left) - sympy.sympify(right)
+        sides = [sympy.sympify(side) for side in (left, right)]
+        difference = sides[0] - sides[1]
     except (sympy.SympifyError, TypeError):
         raise ValueContractError(
             f"no exact identity between {type(left).__name__} and {type(right).__name__}"
         ) from None
-    if difference.has(sympy.Float):
+    if any(side.has(sympy.Float) for side in sides):
         raise ValueContractError("the identity contains a float; write the numbers as rationals")
     return sympy.simplify(difference) == 0
