@@ -5,8 +5,8 @@ from __future__ import annotations
 from types import SimpleNamespace
 
 import numpy as np
-import sympy
 import pytest
+import sympy
 from flint import acb, arb, fmpq, fmpq_poly
 from hypothesis import given, settings
 from hypothesis import strategies as st
