@@ -6,7 +6,7 @@ BIN = $(VENV)/bin
 LOCK_DATE ?=
 
 .DEFAULT_GOAL := help
-.PHONY: help reproduce test check lint unit build environment test-environment bench lock schemas book picture bundle clean distclean
+.PHONY: help reproduce test check lint unit build environment test-environment bench slurm lock schemas book picture bundle clean distclean
 
 help: ## this list
 	@grep -hE '^[a-z-]+:.*## ' $(MAKEFILE_LIST) | sed 's/:.*## /\t/' | expand -t 18
@@ -54,14 +54,20 @@ picture: test-environment ## the README's picture of the report, from a finished
 bundle: reproduce ## what one would deposit in an archive: run/bundle/, with a manifest of digests
 	@PYTHONPATH=src $(BIN)/python -m recontrol.report bundle
 
-lock: ## resolve pyproject.toml into the two lock files (needs uv; LOCK_DATE=2026-11-01 repeats a resolution)
+slurm: ## the campaign on a real SLURM on this machine: kill, resume, compare (root and Debian's slurm packages; 5 minutes)
+	@$(PYTHON) tools/environment.py $(VENV)-slurm environment-slurm.lock
+	@$(VENV)-slurm/bin/python tests/slurm/campaign.py $(PAPER)
+
+lock: ## resolve pyproject.toml into the lock files (needs uv; LOCK_DATE=2026-11-01 repeats a resolution)
 	uv pip compile --universal --python-version 3.11 --generate-hashes --no-header \
 	  $(if $(LOCK_DATE),--exclude-newer $(LOCK_DATE)) pyproject.toml -o environment.lock
 	uv pip compile --universal --python-version 3.11 --generate-hashes --no-header --extra test \
 	  $(if $(LOCK_DATE),--exclude-newer $(LOCK_DATE)) -c environment.lock pyproject.toml -o environment-test.lock
+	uv pip compile --universal --python-version 3.11 --generate-hashes --no-header --extra slurm \
+	  $(if $(LOCK_DATE),--exclude-newer $(LOCK_DATE)) -c environment.lock pyproject.toml -o environment-slurm.lock
 
 clean: ## remove what the chain made
 	rm -rf results figures run .snakemake
 
 distclean: clean ## and the environments
-	rm -rf .venv .venv-test .pytest_cache .mypy_cache .ruff_cache .hypothesis
+	rm -rf .venv .venv-test .venv-slurm .pytest_cache .mypy_cache .ruff_cache .hypothesis
