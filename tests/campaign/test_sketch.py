@@ -49,6 +49,16 @@ def test_a_diverged_trajectory_is_the_worst():
     assert made.curve()[1][-1] == pytest.approx(3 / 5)
 
 
+@pytest.mark.parametrize("worst", ["max", "min"])
+def test_quantiles_count_what_diverged_at_the_bad_end(worst):
+    made = sketch(np.array([1.0, 2.0, np.inf, np.nan]), 0, worst)
+    quarters = [made.quantile(level) for level in (0.25, 0.5, 0.75, 1.0)]
+    infinite = [ends is None for ends in quarters]
+    assert infinite == ([False, False, True, True] if worst == "max" else [True, True, False, False])
+    middles = [sum(ends) / 2 for ends in quarters if ends]
+    assert middles == pytest.approx([1.0, 2.0], rel=0.01)
+
+
 def test_zero_and_sign_have_bins_of_their_own():
     made = sketch(np.array([-2.0, 0.0, 0.0, 2.0]))
     assert made.quantile(0.25)[1] < 0 < made.quantile(1.0)[0]
@@ -57,5 +67,5 @@ def test_zero_and_sign_have_bins_of_their_own():
 
 
 def test_nothing_has_no_quantile():
-    with pytest.raises(ValueError, match="no finite outcome"):
+    with pytest.raises(ValueError, match="no outcome"):
         Sketch().quantile(0.5)

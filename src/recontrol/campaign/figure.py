@@ -41,22 +41,26 @@ def _panel(ax: Any, name: str, row: Mapping[str, Any]) -> dict[str, tuple[Any, A
     from recontrol import plotting
 
     sketch = Sketch.from_json(row)
+    below = sketch.diverged / sketch.count if sketch.worst == "min" else 0.0
     ax.set_title(name)
     plotting.label_axes(ax, (row["what"], row["unit"]), ("fraction of trajectories", "1"))
     ax.set_ylim(-0.03, 1.03)
-    if not row["quantiles"]:
+    if sketch.count == sketch.diverged:
         ax.text(0.5, 0.5, "no trajectory ended", transform=ax.transAxes, ha="center")
         return {f"{name}: diverged": ([0.0], [row["diverged"]])}
-    x, y = ([start, *rest] for start, rest in zip((sketch.minimum, 0.0), sketch.curve(), strict=True))
+    x, y = ([start, *rest] for start, rest in zip((sketch.minimum, below), sketch.curve(), strict=True))
     ax.plot(x, y, drawstyle="steps-post", label="found", **plotting.SERIES[0].line)
     curves: dict[str, tuple[Any, Any]] = {f"{name}: distribution": (x, y)}
-    middles = [(sum(row["quantiles"][level]) / 2, float(level)) for level in MARKED]
-    ax.plot(*zip(*middles, strict=True), label="5, 50, 95 %", **plotting.SERIES[0].points)
-    worst = sketch.maximum if sketch.worst == "max" else sketch.minimum
-    at = 1.0 - sketch.diverged / sketch.count if sketch.worst == "max" else 0.0
-    ax.plot([worst], [at], label="worst found", **plotting.SERIES[1].points)
-    curves[f"{name}: quantiles"] = ([x for x, _ in middles], [y for _, y in middles])
-    curves[f"{name}: worst"] = ([worst], [at])
+    middles = [(sum(ends) / 2, float(level)) for level in MARKED if (ends := row["quantiles"][level]) is not None]
+    if middles:
+        curves[f"{name}: quantiles"] = ([x for x, _ in middles], [y for _, y in middles])
+        ax.plot(*curves[f"{name}: quantiles"], label="5, 50, 95 %", **plotting.SERIES[0].points)
+    if sketch.diverged:
+        share = 100 * sketch.diverged / sketch.count
+        ax.text(0.98, 0.08, f"{share:.3g} % not finite", transform=ax.transAxes, ha="right")
+    else:
+        curves[f"{name}: worst"] = ([sketch.maximum], [1.0]) if sketch.worst == "max" else ([sketch.minimum], [0.0])
+        ax.plot(*curves[f"{name}: worst"], label="worst found", **plotting.SERIES[1].points)
     if row["bound"] is not None:
         ax.axvline(row["bound"], label="proven bound", **plotting.SERIES[3].line)
         curves[f"{name}: bound"] = ([row["bound"]] * 2, [0.0, 1.0])

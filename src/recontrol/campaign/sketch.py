@@ -88,28 +88,31 @@ class Sketch:
             return min(self.worst_index, other.worst_index)
         return self.worst_index if mine > theirs else other.worst_index
 
-    def quantile(self, level: float) -> tuple[float, float]:
-        """Ends of the bin that holds the `level` quantile of the finite outcomes, cut at the extremes.
+    def quantile(self, level: float) -> tuple[float, float] | None:
+        """Ends of the bin that holds the `level` quantile of all trajectories, cut at the extremes.
 
-        Raises ValueError if every trajectory diverged or there is none.
+        Diverged trajectories lie beyond the bad end: None if the quantile is one of them. Raises ValueError if there is
+        no trajectory.
         """
-        total = self.count - self.diverged
-        if not total:
-            raise ValueError("no finite outcome")
-        rank = min(max(math.ceil(level * total), 1), total)
-        seen = 0
+        if not self.count:
+            raise ValueError("no outcome")
+        rank = min(max(math.ceil(level * self.count), 1), self.count)
+        seen = self.diverged if self.worst == "min" else 0
+        if rank <= seen:
+            return None
         for key in sorted(self.bins):
             seen += self.bins[key]
             if seen >= rank:
                 low, high = _ends(key)
                 return max(low, self.minimum), min(high, self.maximum)
-        raise AssertionError("bins and count disagree")
+        return None
 
     def curve(self) -> tuple[Any, Any]:
         """Upper bin ends and the fraction of all trajectories at or below them (for a distribution plot)."""
         keys = sorted(self.bins)
         ends = np.array([min(_ends(key)[1], self.maximum) for key in keys])
-        return ends, np.cumsum([self.bins[key] for key in keys]) / max(self.count, 1)
+        below = self.diverged if self.worst == "min" else 0
+        return ends, (below + np.cumsum([self.bins[key] for key in keys])) / max(self.count, 1)
 
     def to_json(self) -> dict[str, Any]:
         """JSON types only."""

@@ -112,10 +112,10 @@ def _pictures(content: Mapping[str, Any], target: str) -> dict[Path, bytes]:
 
 
 def describe(sketch: Sketch, bound: Any = None) -> dict[str, Any]:
-    """Count, extremes, bracketed quantiles, the worst trajectory's number, and the proven bound beside them."""
+    """Extremes, bracketed quantiles (null where not finite), the worst trajectory's number, and the proven bound."""
     row = sketch.to_json()
-    finite = sketch.count > sketch.diverged
-    row["quantiles"] = {f"{level:g}": list(sketch.quantile(level)) for level in LEVELS} if finite else {}
+    found = {f"{level:g}": sketch.quantile(level) for level in LEVELS}
+    row["quantiles"] = {level: None if ends is None else list(ends) for level, ends in found.items()}
     row["bound"] = bound
     return row
 
