@@ -25,7 +25,9 @@ def _linearised(order: int) -> tuple[Any, Any]:
     radius = a * (1 - e * sp.cos(M))
     h = n * a**2 * sp.sqrt(1 - e**2)
     motion = (radius, n * sp.diff(radius, M), h / radius**2)
-    exact = orbit.relative_acceleration(state[:3], state[3:], *motion, n**2 * a**3)
+    x, y, z = state[:3]
+    cube = ((radius + x) ** 2 + y**2 + z**2) ** sp.Rational(3, 2)
+    exact = orbit.relative_acceleration(state[:3], state[3:], *motion, n**2 * a**3, norm_cubed=cube)
     origin = dict.fromkeys(state, 0)
     jacobian = sp.Matrix(exact).jacobian(state).subs(origin)
     lower = jacobian.applyfunc(lambda f: sp.simplify(sp.diff(sp.simplify(f), e, order).subs(e, 0)))
