@@ -23,6 +23,7 @@ except RecontrolError as error:
 
 
 configfile: "config/config.yaml"
+configfile: "config/campaign.yaml"
 
 
 report: "rules/captions/workflow.rst"

@@ -272,7 +272,7 @@ def test_closure_follows_function_level_and_relative_imports(built_toy):
 
 
 def test_campaign_resumes_and_contains_the_small_ensemble(toy):
-    toy.edit("config/config.yaml", "campaign_chunks: 100", "campaign_chunks: 3")
+    toy.edit("config/campaign.yaml", "campaign_chunks: 100", "campaign_chunks: 3")
     toy.snakemake("results/toy2024/ensemble/poles/chunk-00001.json")
     ran = jobs(toy.snakemake("campaign").stdout)
     assert ran == {"toy2024: poles, chunk 00002", "toy2024: poles, large campaign"}

@@ -41,11 +41,11 @@ def copy(paper: str, target: Path) -> None:
     toy = ROOT / "tests/toy" / paper
     folder = target / "papers" / paper
     shutil.copytree(toy if toy.is_dir() else ROOT / "papers" / paper, folder, ignore=ignored)
-    config = target / "config/config.yaml"
-    text = config.read_text()
-    for name, value in SIZES.items():
-        text = re.sub(rf"^{name}: \d+$", f"{name}: {value}", text, flags=re.MULTILINE)
-    config.write_text(text)
+    for config in (target / "config").glob("*.yaml"):
+        text = config.read_text()
+        for name, value in SIZES.items():
+            text = re.sub(rf"^{name}: \d+$", f"{name}: {value}", text, flags=re.MULTILINE)
+        config.write_text(text)
 
 
 def start(folder: Path, *options: str) -> subprocess.Popen[str]:
