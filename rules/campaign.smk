@@ -67,7 +67,11 @@ rule campaign:
 
 
 # Say how far the campaign has come while it runs.
-if workflow.is_main_process and "campaign" in sys.argv and not guard.only_looking(sys.argv[1:]):
+if (
+    workflow.is_main_process
+    and "campaign" in sys.argv
+    and not guard.only_looking(sys.argv[1:])
+):
     from recontrol.pipeline.campaign import watch
 
     watch(graph.campaigns(), config["campaign_chunks"])
