@@ -8,7 +8,7 @@ from snakemake.exceptions import WorkflowError
 
 from recontrol import paper as paper_folders
 from recontrol.errors import RecontrolError
-from recontrol.pipeline import environment, guard
+from recontrol.pipeline import closure, environment, guard
 from recontrol.pipeline.graph import Graph
 
 environment.for_jobs(Path(workflow.basedir))
@@ -54,6 +54,10 @@ rule all:
         ],
         rules.latex.output,
         graph.ensembles(graph.papers),
+
+
+onstart:
+    closure.remember()
 
 
 onsuccess:

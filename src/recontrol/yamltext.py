@@ -12,6 +12,8 @@ import yaml
 
 from recontrol.errors import PaperError
 
+LOADER: Any = getattr(yaml, "CSafeLoader", yaml.SafeLoader)
+"""libyaml's parser where the package has it; it reads the same language ten times faster."""
 MAX_DEPTH = 30
 MAX_BYTES = 2_000_000
 
@@ -43,7 +45,7 @@ def load(path: Path) -> tuple[Any, Lines]:
         raise PaperError(f"{path}: byte {error.start} is not UTF-8; save the file as UTF-8") from None
     try:
         _refuse_references(text, path)
-        node = yaml.compose(text, Loader=yaml.SafeLoader)
+        node = yaml.compose(text, Loader=LOADER)
     except yaml.MarkedYAMLError as error:
         mark = error.problem_mark or error.context_mark
         line = mark.line + 1 if mark else 1
@@ -60,7 +62,7 @@ def load(path: Path) -> tuple[Any, Lines]:
 
 def _refuse_references(text: str, path: Path) -> None:
     depth = 0
-    for event in yaml.parse(text, Loader=yaml.SafeLoader):
+    for event in yaml.parse(text, Loader=LOADER):
         line = event.start_mark.line + 1 if event.start_mark else 1
         if isinstance(event, yaml.AliasEvent):
             raise PaperError(f"{path}:{line}: alias *{event.anchor}; write the value out, aliases are refused")

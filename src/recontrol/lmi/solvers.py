@@ -1,6 +1,7 @@
-"""Solver profiles, and one guarded run of a CVXPY problem: in a child process, timed, with normalised words.
+"""Solver profiles, and one guarded run of a CVXPY problem: timed, with normalised words.
 
-The child protects the caller from crashes and hangs of compiled solvers (CVXOPT and SDPA know no time limit). What a
+A child process protects the caller from crashes and hangs of compiled solvers (CVXOPT and SDPA know no time limit).
+CLARABEL needs none: it is memory-safe and keeps its own time limit, and a fork costs as much as a small solve. What a
 solver says is kept word for word; what is believed is decided by `recontrol.lmi.problem` from the stored point.
 """
 
@@ -40,7 +41,7 @@ class Profile:
     """A named way to call a solver through CVXPY.
 
     ``time_option`` is the solver's own time limit, if it has one. ``run`` replaces the call (for tests): a function of
-    the CVXPY problem that leaves status and values in it.
+    the CVXPY problem that leaves status and values in it. ``guarded`` solvers run in a child process.
     """
 
     name: str
@@ -50,6 +51,7 @@ class Profile:
     options: Mapping[str, Any] = field(default_factory=dict)
     time_option: str | None = None
     run: Callable[[Any], None] | None = None
+    guarded: bool = True
 
 
 PROFILES: dict[str, Profile] = {
@@ -61,6 +63,7 @@ PROFILES: dict[str, Profile] = {
         "interior point",
         {"direct_solve_method": "qdldl", "max_threads": 1},
         "time_limit",
+        guarded=False,
     ),
     # The default KKT solver of CVXOPT fails on many of these problems.
     "CVXOPT": Profile("CVXOPT", "CVXOPT", "cvxopt", "interior point", {"kktsolver": "robust"}),
@@ -103,13 +106,15 @@ class Run:
 
 
 def run(problem: Any, chosen: Profile, time_limit: float = DEFAULT_TIME_LIMIT) -> Run:
-    """Solve a CVXPY problem in a child process within ``time_limit`` [s]; never raises for what the solver does.
+    """Solve a CVXPY problem within ``time_limit`` [s]; never raises for what the solver does.
 
     A crash, an exception or a killed child gives outcome "failed" with words that say so.
     """
+    started = time.perf_counter()
+    if chosen.run is None and not chosen.guarded:
+        return Run(**_answer(problem, chosen, time_limit), seconds=_since(started))
     context = multiprocessing.get_context("fork")
     receive, send = context.Pipe(duplex=False)
-    started = time.perf_counter()
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", DeprecationWarning)  # fork beside idle BLAS threads, Python 3.12
         child = context.Process(target=_child, args=(problem, chosen, time_limit, send), daemon=True)
@@ -141,15 +146,21 @@ def _child(problem: Any, chosen: Profile, time_limit: float, send: Any) -> None:
     null = os.open(os.devnull, os.O_WRONLY)
     os.dup2(null, 1)
     os.dup2(null, 2)
+    send.send(_answer(problem, chosen, time_limit))
+    send.close()
+    os._exit(0)
+
+
+def _answer(problem: Any, chosen: Profile, time_limit: float) -> dict[str, Any]:
+    """What the solver says, or the error that it raised, in words."""
     try:
         with warnings.catch_warnings():
             warnings.simplefilter("ignore")
-            answer = _solve(problem, chosen, time_limit)
-    except Exception as error:
-        answer = {"words": f"error: {type(error).__name__}: {error}".strip()[:300], "outcome": FAILED}
-    send.send(answer)
-    send.close()
-    os._exit(0)
+            return _solve(problem, chosen, time_limit)
+    except (KeyboardInterrupt, SystemExit):
+        raise
+    except BaseException as error:  # a panic of a Rust solver is no Exception
+        return {"words": f"error: {type(error).__name__}: {error}".strip()[:300], "outcome": FAILED}
 
 
 def _solve(problem: Any, chosen: Profile, time_limit: float) -> dict[str, Any]:
@@ -159,7 +170,7 @@ def _solve(problem: Any, chosen: Profile, time_limit: float) -> dict[str, Any]:
         options = dict(chosen.options)
         if chosen.time_option:
             options[chosen.time_option] = float(time_limit)
-        problem.solve(solver=chosen.solver, **options)
+        problem.solve(solver=chosen.solver, warm_start=False, **options)
     words = str(problem.status)
     stats = problem.solver_stats
     value = problem.value

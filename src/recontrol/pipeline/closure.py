@@ -7,8 +7,15 @@ folder that its own stage and all earlier stages of the paper may import, functi
 from __future__ import annotations
 
 import ast
+import json
+import os
 from functools import cache
 from pathlib import Path
+
+from recontrol.pipeline.encode import sha256
+
+MEMORY = Path("run/imports.json")
+"""What each content of a source file imports, by its sha256: parsing all of them is what a small job would cost."""
 
 ORDER = ("model", "synthesis", "certificates", "simulation")
 """Stages whose artifacts later stages read, in their order."""
@@ -64,6 +71,7 @@ def files_of(modules: frozenset[str], base: Path) -> list[str]:
     return sorted(path.relative_to(base).as_posix() for path in set(seen.values()))
 
 
+@cache
 def find(module: str, base: Path) -> Path | None:
     """File of a module of this tree, or None."""
     root = base / "src" if module.split(".")[0] == "recontrol" else base if module.startswith("papers.") else None
@@ -78,24 +86,51 @@ def find(module: str, base: Path) -> Path | None:
 
 @cache
 def _imports(path: Path, module: str, base: Path) -> list[str]:
-    try:
-        tree = ast.parse(path.read_text(encoding="utf-8"), filename=str(path))
-    except SyntaxError:
-        return []
-    package = module if path.name == "__init__.py" else module.rpartition(".")[0]
+    package = (module if path.name == "__init__.py" else module.rpartition(".")[0]).split(".")
     found: list[str] = []
-    for node in ast.walk(tree):
-        if isinstance(node, ast.Import):
-            for alias in node.names:
-                found += _with_parents(alias.name)
-        elif isinstance(node, ast.ImportFrom):
-            origin = node.module or ""
-            if node.level:
-                anchor = package.split(".")[: len(package.split(".")) - node.level + 1]
-                origin = ".".join([*anchor, *([origin] if origin else [])])
-            found += _with_parents(origin)
-            found += [f"{origin}.{alias.name}" for alias in node.names]
+    for level, origin, names in _statements(path.read_bytes()):
+        if level:
+            anchor = package[: len(package) - level + 1]
+            origin = ".".join([*anchor, *([origin] if origin else [])])
+        found += _with_parents(origin)
+        found += [f"{origin}.{name}" for name in names]
     return [name for name in found if find(name, base)]
+
+
+def _statements(source: bytes) -> list[tuple[int, str, list[str]]]:
+    """Import statements of a source: level, origin and names of each; none if it cannot be parsed."""
+    memory, digest = _memory(), sha256(source)
+    if digest not in memory:
+        try:
+            tree = ast.parse(source)
+        except (SyntaxError, ValueError):
+            return []
+        found: list[tuple[int, str, list[str]]] = []
+        for node in ast.walk(tree):
+            if isinstance(node, ast.Import):
+                found += [(0, alias.name, []) for alias in node.names]
+            elif isinstance(node, ast.ImportFrom):
+                found.append((node.level, node.module or "", [alias.name for alias in node.names]))
+        memory[digest] = found
+    return memory[digest]
+
+
+@cache
+def _memory() -> dict[str, list[tuple[int, str, list[str]]]]:
+    """What an earlier process remembered, or nothing: a memory that cannot be read is only slower."""
+    try:
+        rows = json.loads(MEMORY.read_text())
+        return {digest: [(int(a), str(b), [str(n) for n in c]) for a, b, c in found] for digest, found in rows.items()}
+    except (OSError, ValueError, TypeError, AttributeError):
+        return {}
+
+
+def remember() -> None:
+    """Keep for the jobs of a run what this process has found."""
+    MEMORY.parent.mkdir(parents=True, exist_ok=True)
+    temporary = MEMORY.with_suffix(f".{os.getpid()}.part")
+    temporary.write_text(json.dumps(_memory(), sort_keys=True))
+    temporary.replace(MEMORY)
 
 
 def _with_parents(module: str) -> list[str]:
@@ -109,12 +144,12 @@ def undeclared(loaded: dict[str, str], declared: list[str], root: Path | str = "
     loaded: module name -> file, as in sys.modules. Returns their paths relative to `root`.
     """
     base = Path(root).resolve()
-    known = set(declared)
-    surplus = set()
-    for file in loaded.values():
-        path = Path(file).resolve()
-        if path.suffix == ".py" and any(path.is_relative_to(base / top) for top in ("src", "papers")):
-            relative = path.relative_to(base).as_posix()
-            if relative not in known:
-                surplus.add(relative)
-    return sorted(surplus)
+    tops = tuple(f"{base / top}{os.sep}" for top in ("src", "papers"))
+    files = {os.path.join(_real(folder), name) for folder, name in map(os.path.split, loaded.values())}
+    surplus = {os.path.relpath(file, base) for file in files if file.endswith(".py") and file.startswith(tops)}
+    return sorted({Path(name).as_posix() for name in surplus} - set(declared))
+
+
+@cache
+def _real(folder: str) -> str:
+    return os.path.realpath(folder)
