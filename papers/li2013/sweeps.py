@@ -19,8 +19,6 @@ from . import conditions as c
 from . import problems as pr
 
 DECOMPOSED = ("xy", "z")
-# One thread is in the profile, so that the supernodal factorisation gives the same bytes in each run.
-FASTER = {"direct_solve_method": "faer"}
 
 
 class SweepError(RuntimeError):
@@ -64,9 +62,9 @@ class Margin:
     words: str
 
 
-def run(model: Any, solver: str = "CLARABEL", **options: Any) -> solvers.Run:
+def run(model: Any, solver: str = "CLARABEL") -> solvers.Run:
     """One guarded run; raises SweepError without values."""
-    found = solvers.run(model, solvers.profile(solver, **options))
+    found = solvers.run(model, solvers.profile(solver, **(solvers.FASTER if solver == "CLARABEL" else {})))
     if found.outcome not in (solvers.OPTIMAL, solvers.INACCURATE) or any(v is None for v in found.values):
         raise SweepError(f"{solver}: {found.words}")
     return found

@@ -7,11 +7,11 @@ from typing import Any
 
 from recontrol.lmi.conditions import Condition
 from recontrol.lmi.proof import NotProvenError, prove_feasible, prove_infeasible
+from recontrol.lmi.solvers import FASTER
 
 from .. import conditions as c
 from .. import problems as pr
 from ..points import exact_point, prove
-from ..sweeps import FASTER
 from ..synthesis.resynthesis import proof_case
 
 # Units and row balancing under which the interior of the multipliers was wide enough, tried in turn.

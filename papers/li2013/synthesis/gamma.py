@@ -11,11 +11,12 @@ from recontrol.exact import rational
 from recontrol.lmi.conditions import minimise
 from recontrol.lmi.enclosure import bound_by_point
 from recontrol.lmi.problem import Problem, Solution, agreement
+from recontrol.lmi.solvers import FASTER
 from recontrol.lmi.variables import scalar
 
 from .. import conditions as c
 from .. import problems as pr
-from ..sweeps import DECOMPOSED, FASTER
+from ..sweeps import DECOMPOSED
 
 CHANNELS = ("both", "d-only", "yr-only")
 PERIODS = ("0.25", "0.5", "0.75", "1.0", "1.5")

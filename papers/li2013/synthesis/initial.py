@@ -11,7 +11,7 @@ from recontrol.exact import rational
 
 from .. import conditions as c
 from .. import problems as pr
-from ..sweeps import FASTER, call, cvxpy_unknowns, floats, run, values_of
+from ..sweeps import call, cvxpy_unknowns, floats, run, values_of
 
 
 def model(
@@ -50,7 +50,7 @@ def _optimum(constraints: list[Any], objective: Any, sense: str, value: float, s
 
     wrapper = {"min": cvxpy.Minimize, "max": cvxpy.Maximize}[sense]
     problem = cvxpy.Problem(wrapper(objective), constraints)
-    found = run(problem, solver, **(FASTER if solver == "CLARABEL" else {}))
+    found = run(problem, solver)
     for variable in problem.variables():
         variable.value = values_of(problem, found)[variable.id]
     return float(objective.value) * value

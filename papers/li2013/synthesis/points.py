@@ -7,11 +7,11 @@ from typing import Any
 from recontrol.lmi.conditions import condition
 from recontrol.lmi.problem import Problem
 from recontrol.lmi.proof import NotProvenError
+from recontrol.lmi.solvers import FASTER
 
 from .. import conditions as c
 from .. import problems as pr
 from ..points import exact_point
-from ..sweeps import FASTER
 
 BOTH = ("w-print", "w-geo")
 

@@ -12,7 +12,7 @@ from recontrol.systems.sampled import decay_rate
 
 from .. import conditions as c
 from .. import problems as pr
-from ..sweeps import FASTER, SweepError, call, floats, run, search, values_of
+from ..sweeps import SweepError, call, floats, run, search, values_of
 
 RATES = ("0.10", "0.15", "0.20")
 SLOPE, LENGTH, FORCE, STRICT = 0.5, 20.0, 100.0, 1e-6  # T2 = SLOPE T1; units of state (SI) and force [N]
@@ -34,7 +34,7 @@ def design(data: Any, alpha: float) -> dict[str, Any]:
     constraints += [call(c.synthesis_thrust, bound, axis=axis) >> 0 for axis in range(3)]
     constraints.append(call(c.synthesis_start, bound) >> 0)
     model = cvxpy.Problem(cvxpy.Minimize(u2), constraints)
-    values = values_of(model, run(model, **FASTER))
+    values = values_of(model, run(model))
     K = np.linalg.solve(values[unknown["X"].id].T, values[Y.id].T).T * FORCE / LENGTH
     return {"u": float(np.sqrt(values[u2.id])) * FORCE, "K": K}
 

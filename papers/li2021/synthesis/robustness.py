@@ -67,7 +67,7 @@ def _limits(p: dict[str, Array], c: Controller, a: float, b: float) -> dict[str,
 
     def limit(disk: bool, high: float) -> list[float]:
         everything = np.arange(len(gains))
-        low, high = threshold(lambda size: excess(everything, size, disk).max() >= 0, 0.0, high, 0.02)
+        low, high = threshold(lambda size: excess(everything, size, disk).max() >= 0, 0.0, high, 0.08)
         # The vertices that leave first are among the worst at the coarse end; all are asked again at the result.
         leading = np.argsort(excess(everything, high, disk))[-400:]
         low, high = threshold(lambda size: excess(leading, size, disk).max() >= 0, low, high, 1e-4)

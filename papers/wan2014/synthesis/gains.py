@@ -18,7 +18,7 @@ from ..problems import AXES, SOURCE, Scale, rendezvous, source
 
 COST_UNIT = float(rational.to_float(Scale.cost))
 IN_PLANE = np.ix_([0, 1], [0, 1, 3, 4])
-SCS_OPTIONS = {"max_iters": 20_000, "eps": 1e-7}
+SCS_OPTIONS = {"max_iters": 5_000, "eps": 1e-7}
 SLACK = "1.002"
 
 

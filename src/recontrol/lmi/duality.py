@@ -204,7 +204,8 @@ def _equal(a: Faces, b: Faces) -> bool:
 
 
 def _run(model: Any, solver: str, time_limit: float, what: str, *, sharp: bool = False) -> solvers.Run:
-    attempts: list[dict[str, float]] = [SHARP[solver], {}] if sharp and solver in SHARP else [{}]
+    fast = solvers.FASTER if solver == "CLARABEL" else {}
+    attempts = [{**fast, **SHARP[solver]}, fast] if sharp and solver in SHARP else [fast]
     for options in attempts:
         run = solvers.run(model, solvers.profile(solver, **options), time_limit)
         if run.outcome in (solvers.OPTIMAL, solvers.INACCURATE) and all(v is not None for v in run.values):

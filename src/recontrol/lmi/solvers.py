@@ -31,6 +31,10 @@ _WORDS = {
 
 DEFAULT_TIME_LIMIT = 120.0
 
+FASTER: Mapping[str, Any] = {"direct_solve_method": "faer"}
+"""Options of CLARABEL for searches and for multipliers that are proven afterwards: the supernodal factorisation takes
+two thirds of the time. The profile's single thread keeps its bytes the same in each run."""
+
 
 class SolverMissingError(ValueError):
     """A solver profile is unknown or its package is not installed."""

@@ -20,9 +20,9 @@ from typing import Any
 import numpy as np
 from flint import arb, fmpq
 
-from recontrol.exact.ball import exact_midpoint, precision, to_ball
+from recontrol.exact.ball import exact_midpoint, midpoint, precision, to_ball
 from recontrol.exact.linalg import SingularError, is_positive_definite, lyapunov
-from recontrol.exact.rational import identity
+from recontrol.exact.rational import from_float, identity
 
 SHIFT = fmpq(1, 10**12)
 
@@ -54,16 +54,16 @@ def residual(A: np.ndarray, Q: np.ndarray, S: np.ndarray, P: np.ndarray) -> np.n
 def minimal_solution(
     A: np.ndarray, Q: np.ndarray, S: np.ndarray, *, bits: int = 160, iterations: int = 120
 ) -> np.ndarray:
-    """Approximate minimal solution (n, n) by Newton's method from zero, as exact dyadic matrix; not a proof.
+    """Approximate minimal solution (n, n) by Newton's method, as exact dyadic matrix; not a proof.
 
-    Parameters: object arrays of fmpq or arb, all (n, n); balls enter with their midpoints. The iterates rise
-    monotonically, linearly by halves when the solution is nearly not stabilising, quadratically otherwise.
-    Raises NoSolutionError.
+    Parameters: object arrays of fmpq or arb, all (n, n); balls enter with their midpoints. The start is the solution in
+    doubles where it is stabilising, else zero. From there the iterates rise monotonically, linearly by halves when the
+    solution is nearly not stabilising, quadratically otherwise. Raises NoSolutionError.
     """
     with precision(bits):
         A, Q, S = (exact_midpoint(M) for M in (A, Q, S))
         A, Q, S = to_ball(A), to_ball((Q + Q.T) * fmpq(1, 2)), to_ball((S + S.T) * fmpq(1, 2))
-        P = to_ball(np.array([[fmpq(0)] * len(A)] * len(A), dtype=object))
+        P = to_ball(_start(A, Q, S))
         last = None
         for _ in range(iterations):
             try:
@@ -79,6 +79,18 @@ def minimal_solution(
                 return exact_midpoint((P + P.T) * fmpq(1, 2))
             last = step
     raise NoSolutionError(f"Newton's iteration did not converge in {iterations} steps (last step {last:.1e})")
+
+
+def _start(A: np.ndarray, Q: np.ndarray, S: np.ndarray) -> np.ndarray:
+    """The minimal solution in doubles, exact as they stand, if it is positive and stabilising; else zero."""
+    try:
+        a, q, s = (midpoint(M) for M in (A, Q, S))
+        P = float_minimal_solution(a, q, s)
+        if np.linalg.eigvalsh(P)[0] >= 0 and np.linalg.eigvals(a + s @ P).real.max() < 0:
+            return from_float(P)
+    except (NoSolutionError, np.linalg.LinAlgError, ValueError, OverflowError):
+        pass
+    return np.array([[fmpq(0)] * len(A)] * len(A), dtype=object)
 
 
 def _symmetric(M: np.ndarray) -> np.ndarray:
