@@ -6,7 +6,7 @@ BIN = $(VENV)/bin
 LOCK_DATE ?=
 
 .DEFAULT_GOAL := help
-.PHONY: help reproduce test check lint unit build environment test-environment bench slurm lock schemas book picture bundle clean distclean
+.PHONY: help reproduce test check lint unit build environment test-environment bench slurm faults matrix lock schemas book picture bundle clean distclean
 
 help: ## this list
 	@grep -hE '^[a-z-]+:.*## ' $(MAKEFILE_LIST) | sed 's/:.*## /\t/' | expand -t 18
@@ -39,7 +39,7 @@ faults: test-environment ## every fault test at full size; writes docs/reliabili
 bench: environment ## speed of the ensembles against plain loops; writes docs/performance.md (a minute)
 	@PYTHONPATH=src:. $(BIN)/python tools/bench.py --write
 
-matrix: test-environment ## all papers under several environments; writes docs/reproducibility.md (an hour)
+matrix: test-environment ## all papers under other kernels, threads, solvers and Pythons; writes docs/reproducibility.md (an hour)
 	@PYTHONPATH=src:. $(VENV)-test/bin/python tools/matrix.py
 
 schemas: test-environment ## JSON Schemas of paper.yaml and claims.yaml for editors

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import resource
 import sys
 from collections.abc import Mapping
 from pathlib import Path
@@ -27,9 +28,16 @@ def publish(stage: str, key: str, part: str | None, contents: Mapping[Path, byte
         "stage": stage,
         "part": part,
         "code": sha256("".join(f"{name} {sha256(Path(name).read_bytes())}\n" for name in declared).encode()),
+        "cpu_seconds": cpu_seconds(),
         "inputs": {path.as_posix(): store.digest_of(path) for path in inputs if store.record_path(path).exists()},
     }
     store.publish({path.as_posix(): content for path, content in contents.items()}, made_by)
+
+
+def cpu_seconds() -> float:
+    """Processor time of this job so far, imports and solvers in child processes included."""
+    own, children = (resource.getrusage(who) for who in (resource.RUSAGE_SELF, resource.RUSAGE_CHILDREN))
+    return round(own.ru_utime + own.ru_stime + children.ru_utime + children.ru_stime, 2)
 
 
 def open_paper(key: str) -> papers.Paper:
