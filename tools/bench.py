@@ -10,6 +10,7 @@ from __future__ import annotations
 
 import argparse
 import platform
+import re
 import sys
 import time
 from pathlib import Path
@@ -166,6 +167,16 @@ def page(found):
     )  # fmt: skip
 
 
+KEPT = re.compile(r"<!-- speed -->.*?<!-- /speed -->", re.DOTALL)
+"""A section of docs/performance.md that another program writes."""
+
+
+def with_kept(text, old):
+    """The page with the marked section of an earlier one behind it, where there is one."""
+    section = KEPT.search(old)
+    return f"{text}\n{section.group()}\n" if section else text
+
+
 TEMPLATE = """# Performance of the ensembles
 
 Made by `make bench` (tools/bench.py), which first demands that all methods agree. Work: the full-order loop of
@@ -215,7 +226,8 @@ def main():
     text = page(found)
     print(text)
     if options.write:
-        (ROOT / "docs/performance.md").write_text(text)
+        target = ROOT / "docs/performance.md"
+        target.write_text(with_kept(text, target.read_text() if target.exists() else ""))
         picture(found, ROOT / "docs/performance")
     ratio = found["rates"]["this project"] / found["rates"]["solve_ivp"]
     if ratio < REQUIRED:

@@ -34,3 +34,11 @@ def test_random_loops_are_stable():
     A, x0 = bench.random_loops(20, 6)
     assert np.linalg.eigvals(A).real.max() == pytest.approx(-0.1)
     assert np.linalg.norm(x0, axis=1) == pytest.approx(np.ones(20))
+
+
+def test_section_of_another_program_is_kept():
+    section = "<!-- speed -->\n## How long\n\n| a | b |\n<!-- /speed -->"
+    first = bench.with_kept("# new page\n", f"# old page\n\n{section}\n")
+    assert first == f"# new page\n\n{section}\n"
+    assert bench.with_kept("# new page\n", first) == first
+    assert bench.with_kept("# new page\n", "# old page\n") == "# new page\n"
