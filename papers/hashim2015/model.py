@@ -19,7 +19,6 @@ import numpy as np
 from flint import fmpq
 
 AXES = ("yaw", "pitch-tf", "pitch-ss", "roll")
-PRINTED_AXES = ("yaw", "pitch-tf", "roll")
 
 
 def complete_column(B: np.ndarray, n: int) -> np.ndarray:

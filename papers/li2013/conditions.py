@@ -12,7 +12,7 @@ from typing import Any
 
 import numpy as np
 
-from recontrol.lmi.blocks import block, equal, eye, he, negative, nonnegative, positive, trace
+from recontrol.lmi.blocks import block, equal, eye, he, negative, nonnegative, positive
 
 FAULTS = ("sign-P3", "no-AT2", "no-S2", "no-S3", "S2-twice", "no-Pi24")
 DERIVED, PRINTED = "", " ".join(FAULTS)
@@ -195,18 +195,6 @@ def thrust_margin(P1, K, rho, u_max, axis, t, unit):
     return -(thrust(P1, K, rho, u_max, axis) * (1 / (u_max * u_max))) - t * unit
 
 
-@equal
-def unit_trace(P1):
-    """tr P_1 = n: the scale at which margins are compared."""
-    return trace(P1) * eye(1) - P1.shape[0] * eye(1)
-
-
-@nonnegative
-def capped(t):
-    """t <= 1."""
-    return (1 - t) * eye(1)
-
-
 def margin(t):
     """Objective t."""
     return t
@@ -215,11 +203,6 @@ def margin(t):
 def weight(gamma2):
     """Objective gamma^2."""
     return gamma2
-
-
-def least_bound(rho):
-    """Objective rho."""
-    return rho
 
 
 # -- beyond the paper: the functional with a constant double integral, and the synthesis that the paper lacks --------

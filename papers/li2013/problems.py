@@ -183,17 +183,6 @@ def problem(
     )  # fmt: skip
 
 
-def margin_problem(data: Any, case: str, orbits: Sequence[str], faults: str) -> Problem:
-    """Largest t with (21) <= -t I, P_i >= t I, tr P_1 = n, t <= 1, in SI units (case units=si)."""
-    listed = [
-        *decay_conditions(orbits, faults, margin=True),
-        *definite_conditions(margin=True),
-        condition(c.unit_trace),
-        condition(c.capped),
-    ]
-    return problem(data, "margin", case, listed, objective=maximise(c.margin), extra={"t": scalar()})
-
-
 def point_problem(data: Any, case: str, orbits: Sequence[str], faults: str) -> Problem:
     """(21), (22), V(0) equal to the print, P_2, P_3 > 0, all by the largest margin t (no cap; V in units of 100)."""
     block = tokens(case)["block"]

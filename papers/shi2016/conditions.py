@@ -85,21 +85,9 @@ def trace_below(Z: Any, rho: Any) -> Any:
 
 
 @positive
-def output_trace_below(X: Any, C2: Any, rho: Any) -> Any:
-    """Tr(C2 X C2') < rho, as a scalar."""
-    return rho - trace(C2 @ X @ C2.T)
-
-
-@positive
 def definite(X: Any) -> Any:
     """X > 0."""
     return X
-
-
-@negative
-def thm1_ii(X: Any, N1: Any, A: Any, B2: Any) -> Any:
-    """Theorem 1 (ii), 9 x 9; N1 = X B1 K."""
-    return block([[he(X @ A + N1), X @ B2], [-1 * eye(3)]])
 
 
 @positive

@@ -6,6 +6,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 from flint import arb, fmpq
+from oracles import integrated_monodromy
 
 from papers.shi2016 import algebra, conditions, oracle, plant, problems
 from papers.shi2016.certificates import bounds, theorems
@@ -19,7 +20,6 @@ from recontrol.exact.ball import midpoint
 from recontrol.exact.linalg import is_positive_definite
 from recontrol.exact.rational import decimal, from_float
 from recontrol.lmi import verify
-from recontrol.systems.periodic import monodromy_float
 from recontrol.systems.riccati import float_minimal_solution
 
 ROOT = Path(__file__).parents[2]
@@ -188,7 +188,7 @@ def test_free_run_solves_the_equations(data):
 def test_magnus_against_integration(data):
     A, A1, wave = amplitude._loop(data, "trad", "N-printed")
     found = amplitude.monodromies(A, A1, wave["frequency"], wave["phase"], np.array([0.5, 1.0]))
-    reference = monodromy_float(
+    reference = integrated_monodromy(
         lambda t: A + np.sin(wave["frequency"] * t + wave["phase"]) * A1, 2 * np.pi / wave["frequency"]
     )
     # Fourth order with 128 steps: relative 1e-8.

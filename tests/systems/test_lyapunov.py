@@ -37,10 +37,6 @@ def test_single_state_is_not_a_batch():
     assert lyapunov.integral_square([[-0.5]], [[2.0]], [3.0]) == pytest.approx(36.0)  # 4 * 9 / (2 * 0.5)
 
 
-def test_step_error_of_a_lag_is_half_its_time_constant():
-    assert lyapunov.step_integral_square_error(state_space([[-0.1]], [0.1], [1.0])) == pytest.approx(5.0)
-
-
 def test_noise_cost_of_a_lag():
     assert lyapunov.noise_cost(state_space([[-2.0]], [3.0], [1.0])) == pytest.approx(9 / 4)
     assert lyapunov.noise_cost(state_space([[-2.0]], [3.0], [1.0], 1.0)) == math.inf

@@ -7,7 +7,7 @@ A_f and B_f and the rows of C_f, so u = (I + F3) C_f x_f.
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
@@ -94,8 +94,3 @@ class Ensemble:
 def sine_drift(amplitude: float) -> Drift:
     """The drift of Table 1, the same for every gain."""
     return lambda k, t: amplitude * np.sin(2 * np.pi * t)
-
-
-def without_drift(run: Run) -> Run:
-    """The same run with nominal gains."""
-    return replace(run, drift=0.0)

@@ -147,8 +147,3 @@ def _multipliers(data: Any, gain: str, case: str, shape: str) -> dict[str, Any]:
             "doubling_box": periodic.period_doubling_margin(box),
             "radius": periodic.quadratic_stability_radius(loop, push, row),
         }
-
-
-def interval_loop(data: Any, gain: str) -> np.ndarray:
-    """A + B1 K over the rounding box of the gain and the interval of omega0 that covers both Earth radii."""
-    return plant.closed_loop(plant.matrices(data, plant.rate_interval(data)), plant.gain_box(data, gain))

@@ -9,15 +9,6 @@ from typing import Any
 from recontrol.claims.values import weakest
 
 BROKEN = "broken"
-RULES = {
-    "failed": "a reading broke, or nothing fits because something stayed open",
-    "unspecified": "the paper does not give what a comparison needs",
-    "reproduced": "a reading by the paper's own formulas and data agrees",
-    "reproduced-under-assumption": "a reading agrees once a named assumption fills what the paper leaves open",
-    "certified": "the answer is not unique, and the published value is proven to satisfy the paper's condition",
-    "erratum": "the paper's own formulas and data give something else than the print",
-    "not-reproduced": "every reading gives something else than the print",
-}
 
 
 @dataclass(frozen=True)

@@ -106,23 +106,6 @@ def is_positive_definite(A: np.ndarray) -> bool:
     return definiteness(A) is True if quick is None else quick
 
 
-def is_positive_semidefinite(A: np.ndarray) -> bool:
-    """Whether the rational symmetric matrix ``A`` >= 0, decided exactly (a zero pivot needs a zero column)."""
-    n = check_symmetric(A)
-    if has_balls(A):
-        raise TypeError("semidefiniteness cannot be decided for balls: use is_positive_definite")
-    work = A.copy()
-    for k in range(n):
-        pivot, column = work[k, k], work[k + 1 :, k].copy()
-        if pivot < 0 or (pivot == 0 and any(x != 0 for x in column)):
-            return False
-        if pivot > 0:
-            for j in range(k + 1, n):
-                if column[j - k - 1] != 0:
-                    work[j:, j] -= (column[j - k - 1] / pivot) * column[j - k - 1 :]
-    return True
-
-
 def _arb_mat(A: np.ndarray) -> arb_mat:
     return arb_mat(to_ball(A).tolist())
 
@@ -186,15 +169,6 @@ def nullspace(A: np.ndarray) -> np.ndarray:
         for row, p in enumerate(pivots):
             basis[p, column] = -reduced[row, j]
     return basis
-
-
-def sylvester(A: np.ndarray, B: np.ndarray, C: np.ndarray) -> np.ndarray:
-    """X (m, n) with A X + X B + C = 0, for A (m, m), B (n, n), C (m, n); exact or enclosed. Raises SingularError."""
-    m, n = _check_square(A, "A"), _check_square(B, "B")
-    if C.shape != (m, n):
-        raise ValueError(f"C: expected shape {(m, n)}, found {C.shape}")
-    operator = kron(A, identity(n)) + kron(identity(m), B.T)
-    return solve(operator, -C.reshape(m * n, 1)).reshape(m, n)
 
 
 def lyapunov(A: np.ndarray, Q: np.ndarray) -> np.ndarray:

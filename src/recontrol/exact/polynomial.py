@@ -7,7 +7,6 @@ Everything returned encloses the true answer; a question that balls cannot decid
 
 from __future__ import annotations
 
-import itertools
 from collections.abc import Callable, Sequence
 from typing import Any
 
@@ -154,12 +153,6 @@ def kharitonov_corners(ends: Sequence[tuple[fmpq, fmpq]]) -> list[fmpq_poly]:
     """
     patterns = ((0, 0, 1, 1), (1, 1, 0, 0), (0, 1, 1, 0), (1, 0, 0, 1))
     return [fmpq_poly([ends[k][p[k % 4]] for k in range(len(ends))] + [fmpq(1)]) for p in patterns]
-
-
-def sign_changes(column: Sequence[Any]) -> int:
-    """Sign changes of a Routh column with nonzero entries: the number of roots in the right half plane."""
-    signs = [1 if c > 0 else -1 for c in column]
-    return sum(a != b for a, b in itertools.pairwise(signs))
 
 
 def real_roots(p: fmpq_poly, bits: int = PRECISION) -> list[arb]:

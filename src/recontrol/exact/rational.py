@@ -111,13 +111,6 @@ def kron(A: np.ndarray, B: np.ndarray) -> np.ndarray:
     return (A[:, None, :, None] * B[None, :, None, :]).reshape(m * p, n * q)
 
 
-def is_exact(A: Any) -> bool:
-    """Whether ``A`` is an fmpq or an object array of fmpq (and int) only."""
-    if isinstance(A, np.ndarray):
-        return A.dtype == object and all(type(x) in (fmpq, int, fmpz) for x in A.flat)
-    return type(A) in (fmpq, int, fmpz)
-
-
 def to_float(A: Any) -> Any:
     """Nearest double of an fmpq, or of each entry of an exact array (float64 array of the same shape)."""
     if isinstance(A, np.ndarray):

@@ -17,7 +17,6 @@ from dataclasses import dataclass, field, replace
 from typing import Any
 
 OPTIMAL, INACCURATE, INFEASIBLE, UNBOUNDED, FAILED = "optimal", "inaccurate", "infeasible", "unbounded", "failed"
-OUTCOMES = (OPTIMAL, INACCURATE, INFEASIBLE, UNBOUNDED, FAILED)
 
 _WORDS = {
     "optimal": OPTIMAL,

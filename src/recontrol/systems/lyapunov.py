@@ -45,12 +45,6 @@ def integral_square(A: ArrayLike, C: ArrayLike, x0: ArrayLike) -> Array:
     return np.einsum("i...,ij,j...->...", states, W, states)
 
 
-def step_integral_square_error(system: StateSpace) -> float:
-    """Integral of ``(y - y_final)^2`` of the unit-step response from rest of a stable system, one input, one output."""
-    x_final = -np.linalg.solve(system.A, system.B[:, 0])
-    return float(integral_square(system.A, system.C, -x_final))
-
-
 def noise_cost(system: StateSpace) -> float:
     """``E[abs(y)^2]`` of a stable system driven by unit white noise; inf if the noise reaches y directly."""
     if np.any(system.D):

@@ -14,7 +14,7 @@ Comput. 105 (1999) 21-68 (validated Taylor methods and wrapping).
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -35,23 +35,6 @@ class Mode:
     matrix: np.ndarray
     frequency: Any
     phase: Any
-
-
-def monodromy_float(
-    system: Callable[[float], np.ndarray], period: float, *, rtol: float = 1e-12, atol: float = 1e-15
-) -> np.ndarray:
-    """Monodromy matrix (n, n) of ``x' = system(t) x`` over one period, integrated in doubles with DOP853."""
-    from scipy.integrate import solve_ivp
-
-    n = len(system(0.0))
-
-    def rhs(t: float, x: np.ndarray) -> np.ndarray:
-        return (system(t) @ x.reshape(n, n)).ravel()
-
-    run = solve_ivp(rhs, (0.0, period), np.eye(n).ravel(), method="DOP853", rtol=rtol, atol=atol)
-    if not run.success:
-        raise UndecidedError(f"the integration over one period failed: {run.message}")
-    return run.y[:, -1].reshape(n, n)
 
 
 def monodromy(
