@@ -6,13 +6,17 @@ from typing import Any
 
 from flint import arb, fmpq
 
+from recontrol.claims.proofs import accepted, proven, refuted, undecided
 from recontrol.claims.values import Approx, Result, Statement
 from recontrol.exact.ball import precision, to_ball
 from recontrol.exact.polynomial import charpoly, routh_column
 from recontrol.lmi.certificate import decode
 from recontrol.systems import sampled
 
-from .support import accepted, excluded, integral_bound, loop, proven
+from .support import integral_bound, loop
+
+SOLUTIONS = "solutions, less one"
+"""Margin of \"there is a solution\" where a certificate excludes one."""
 
 
 def eq22_suff(data: Any, certificates: Any, simulation: Any, case: str) -> Result:
@@ -44,7 +48,7 @@ def hurwitz_routh(data: Any, case: str) -> Statement:
 def feasible_printed(certificates: Any) -> Result:
     """Printed (21), (22): they hold for K_bar, and as well for 0 and -K_bar."""
     strengths = {f"holds as well for {gain}": accepted(certificates, f"void-{gain}") for gain in ("zero", "minus")}
-    return proven(certificates, "print-K", **strengths)
+    return proven(certificates, "print-K", strengths)
 
 
 def feasible_derived(certificates: Any) -> Result:
@@ -54,17 +58,17 @@ def feasible_derived(certificates: Any) -> Result:
 
 def performance_printed(certificates: Any) -> Result:
     """Printed (55), d_bar = [d; y_r], gamma^2: a pair of rank-one multipliers."""
-    return excluded(certificates, "pair-square")
+    return refuted(certificates, "pair-square", margin=SOLUTIONS)
 
 
 def performance_equilibrium_square(certificates: Any) -> Result:
     """Derived (55), d_bar = [d; y_r], gamma^2: the loop's equilibrium."""
-    return excluded(certificates, "equilibrium-square")
+    return refuted(certificates, "equilibrium-square", margin=SOLUTIONS)
 
 
 def performance_equilibrium_linear(certificates: Any) -> Result:
     """Derived (55), d_bar = [d; y_r], weight gamma."""
-    return excluded(certificates, "equilibrium-linear")
+    return refuted(certificates, "equilibrium-linear", margin=SOLUTIONS)
 
 
 def performance_d_only(certificates: Any) -> Result:
@@ -74,7 +78,7 @@ def performance_d_only(certificates: Any) -> Result:
 
 def performance_printed_linear(certificates: Any) -> Result:
     """Printed (21), (22), (47), (55), d_bar = [d; y_r], weight gamma; -K_bar passes as well."""
-    return proven(certificates, "linear-K", **{"holds as well for -K_bar": accepted(certificates, "linear-minus")})
+    return proven(certificates, "linear-K", {"holds as well for -K_bar": accepted(certificates, "linear-minus")})
 
 
 def performance_printed_d_only(data: Any, synthesis: Any) -> Statement:
@@ -135,7 +139,7 @@ def alpha_box(data: Any, case: str) -> Result:
             proven_rate = fmpq(int(float(rate) * 10_000), 10_000)
             if sampled.contracts(M, (-to_ball(proven_rate * data["h"])).exp()):
                 return Result(Statement({"proven rate less alpha": arb(proven_rate - data["alpha"])}))
-    return Result(Statement({"undecided": arb(0, 1)}))
+    return Result(Statement({"undecided": undecided()}))
 
 
 def umax_simulated(data: Any, simulation: Any, case: str) -> Result:
@@ -173,7 +177,7 @@ def gamma_pulse(data: Any, simulation: Any, case: str) -> Result:
 def gamma_d_only(certificates: Any, simulation: Any, case: str) -> Result:
     """Derived (55) for d alone bounds its gain by 0.4."""
     found = simulation["gains"]["values"]["sampled"][case]["d-only"]["32"]["gain"]
-    return proven(certificates, "d-only", **{"sampled gain": found})
+    return proven(certificates, "d-only", {"sampled gain": found})
 
 
 def jumps(simulation: Any) -> Result:

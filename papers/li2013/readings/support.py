@@ -1,4 +1,4 @@
-"""What several readings need: statements from certificates, the loop in exact and ball form."""
+"""What several readings need: the loop in exact and ball form, the integral of its error."""
 
 from __future__ import annotations
 
@@ -6,34 +6,10 @@ from typing import Any
 
 from flint import fmpq
 
-from recontrol.claims.values import Result, Statement
 from recontrol.exact.ball import precision
-from recontrol.lmi import verify
-from recontrol.lmi.proof import NotProvenError
 from recontrol.systems import sampled
 
 from .. import problems as pr
-
-
-def proven(certificates: Any, name: str, **evidence: Any) -> Result:
-    """The statement of a certificate as it stands."""
-    from recontrol.claims.values import certified
-
-    return Result(certified(certificates[name]), evidence, certificate=name)
-
-
-def accepted(certificates: Any, name: str) -> str:
-    """Strength of a certificate that must verify; raises NotProvenError otherwise."""
-    found = verify.check(certificates[name])
-    if not found.holds:
-        raise NotProvenError(f"certificate {name}: {found.why}")
-    return found.strength
-
-
-def excluded(certificates: Any, name: str, **evidence: Any) -> Result:
-    """ "There is a solution" is false: a certificate proves that there is none (margin -1)."""
-    accepted(certificates, name)
-    return Result(Statement({"solutions, less one": fmpq(-1)}), evidence, certificate=name)
 
 
 def loop(data: Any, orbit: str, gain: str = "K_bar") -> tuple[Any, Any, dict[str, Any]]:

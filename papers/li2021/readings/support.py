@@ -1,4 +1,4 @@
-"""What several readings need: random rational points, refutations by certificates, loops as exact matrices."""
+"""What several readings need: random rational points, refutations that quote their certificates, pivots."""
 
 from __future__ import annotations
 
@@ -6,12 +6,10 @@ from collections.abc import Mapping
 from typing import Any
 
 import numpy as np
-from flint import arb, fmpq
 
-from recontrol.claims.values import Result, Statement
+from recontrol.claims import proofs
+from recontrol.claims.values import Result
 from recontrol.exact.rational import matrix
-
-PROVEN, REFUTED = fmpq(1), fmpq(-1)
 
 
 def random_rational(rng: np.random.Generator, rows: int, columns: int) -> np.ndarray:
@@ -25,20 +23,10 @@ def random_symmetric(rng: np.random.Generator, n: int) -> np.ndarray:
     return M + M.T
 
 
-def verified(certificates: Mapping[str, Any], *names: str) -> bool:
-    """Whether the standalone verifier accepts every certificate named."""
-    from recontrol.lmi import verify
-
-    return all(verify.check(certificates[name]).holds for name in names)
-
-
 def refuted(certificates: Mapping[str, Any], *names: str, evidence: Mapping[str, Any] | None = None) -> Result:
-    """The statement is false because these certificates hold; open if one of them does not verify."""
-    margin = REFUTED if verified(certificates, *names) else arb(0, 1)
+    """The statement is false because these certificates hold; what they say stands in the evidence."""
     says = {name: certificates[name]["says"] for name in names}
-    return Result(
-        Statement({"proof of the contrary": margin}), evidence={**says, **(evidence or {})}, certificate=names[0]
-    )
+    return proofs.refuted(certificates, *names, evidence={**says, **(evidence or {})})
 
 
 def pivots(M: np.ndarray, name: str) -> dict[str, Any]:

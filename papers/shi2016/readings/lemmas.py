@@ -4,8 +4,9 @@ from __future__ import annotations
 
 from typing import Any
 
-from flint import arb, fmpq
+from flint import fmpq
 
+from recontrol.claims.proofs import provided, undecided, verified
 from recontrol.claims.values import Identity, Result, Size, Statement
 
 from .. import algebra as a
@@ -26,10 +27,10 @@ def bounded_real(certificates: Any, synthesis: Any) -> Result:
 
     margins, evidence = {}, {}
     for gain in plant.GAINS:
-        stored = certificates[f"brl-{gain}"]
-        if not verify.check(stored).holds:
-            return Result(Statement({"certificate": arb(0, 1)}))
-        gamma = verify.number(stored["data"]["gamma"])
+        name = f"brl-{gain}"
+        if not verified(certificates, name):
+            return Result(Statement({"certificate": undecided()}))
+        gamma = verify.number(certificates[name]["data"]["gamma"])
         lower = synthesis["norms"]["Re-equatorial"][gain]["hinf"]["lower"]
         margins[f"gap closes, K_{gain}"] = TIGHT - (gamma / lower - 1)
         margins[f"above the norm, K_{gain}"] = gamma / lower - 1
@@ -46,12 +47,12 @@ def h2_infimum(certificates: Any, synthesis: Any) -> Result:
 
     margins, evidence = {}, {}
     for gain in plant.GAINS:
-        stored, squared = certificates[f"lemma2-{gain}"], synthesis["fixed-gain"][gain]["h2_squared"]
-        excess = verify.number(stored["data"]["rho"]) / squared - 1
-        holds = verify.check(stored).holds
-        margins[f"within 1e-6, K_{gain}"] = fmpq(1, 10**6) - excess if holds else arb(0, 1)
+        name, squared = f"lemma2-{gain}", synthesis["fixed-gain"][gain]["h2_squared"]
+        rho = verify.number(certificates[name]["data"]["rho"])
+        excess = rho / squared - 1
+        margins[f"within 1e-6, K_{gain}"] = provided(verified(certificates, name), fmpq(1, 10**6) - excess)
         margins[f"above, K_{gain}"] = excess
-        evidence |= {f"proven rho, K_{gain}": verify.number(stored["data"]["rho"]), f"h2^2, K_{gain}": squared}
+        evidence |= {f"proven rho, K_{gain}": rho, f"h2^2, K_{gain}": squared}
     return Result(Statement(margins), evidence)
 
 

@@ -6,7 +6,8 @@ from typing import Any
 
 import numpy as np
 
-from recontrol.claims.values import Approx, Membership, Result
+from recontrol.claims.proofs import located, verified
+from recontrol.claims.values import Approx, Result
 from recontrol.exact import rational
 from recontrol.lmi import verify
 
@@ -15,51 +16,43 @@ from ..problems import Scale
 
 def K_product(certificates: Any, synthesis: Any) -> Result:
     evidence = {"smallest common multiple of all half units (float)": float(synthesis["joint"]["gain"]["multiple"])}
-    return Result(Membership.from_certificate(certificates["K_member"]), evidence, "K_member")
-
-
-def _excluded(certificates: Any, name: str, evidence: dict[str, Any] | None = None) -> Result:
-    return Result(Membership.from_certificate(certificates[name]), evidence or {}, name)
+    return located(certificates, "K_member", evidence)
 
 
 def solves_38(certificates: Any, case: str) -> Result:
     """X in its box violates (14) for this gain, so X, Y, K are no point of (38)."""
-    return _excluded(certificates, f"eq14_{case}")
+    return located(certificates, f"eq14_{case}")
 
 
 def solves_CO_orbit(certificates: Any, synthesis: Any) -> Result:
     ends = synthesis["intervals"]
     evidence = {
-        "R once as well": verify.check(certificates["CO_n_orbit_R1"]).holds,
+        "R once as well": verified(certificates, "CO_n_orbit_R1"),
         "n admitted [rad/s], CO": [ends["CO_low"]["outside"]["n"], ends["CO_high"]["outside"]["n"]],
         "n with a witness [rad/s], CO": [ends["CO_low"]["inside"]["n"], ends["CO_high"]["inside"]["n"]],
     }
-    return _excluded(certificates, "CO_n_orbit_R2", evidence)
+    return located(certificates, "CO_n_orbit_R2", evidence)
 
 
 def solves_SF_orbit(certificates: Any) -> Result:
     """SF is a relaxation of CO: the same witness must satisfy it, and it leaves the z row and column free."""
-    return _excluded(certificates, "SF_n_orbit_R2")
+    return located(certificates, "SF_n_orbit_R2")
 
 
 def solves_CO_printed(certificates: Any) -> Result:
-    return _excluded(
-        certificates, "CO_n_printed_R2", {"R once as well": verify.check(certificates["CO_n_printed_R1"]).holds}
-    )
+    return located(certificates, "CO_n_printed_R2", {"R once as well": verified(certificates, "CO_n_printed_R1")})
 
 
 def solves_SF_printed(certificates: Any) -> Result:
-    return _excluded(
-        certificates, "SF_n_printed_R2", {"R once as well": verify.check(certificates["SF_n_printed_R1"]).holds}
-    )
+    return located(certificates, "SF_n_printed_R2", {"R once as well": verified(certificates, "SF_n_printed_R1")})
 
 
 def starts_with_velocity(certificates: Any) -> Result:
-    return _excluded(certificates, "e0_velocity_excluded")
+    return located(certificates, "e0_velocity_excluded")
 
 
 def starts_with_full(certificates: Any) -> Result:
-    return _excluded(certificates, "e0_full_excluded")
+    return located(certificates, "e0_full_excluded")
 
 
 def optimum(synthesis: Any) -> Result:

@@ -7,7 +7,8 @@ from typing import Any
 import numpy as np
 from flint import fmpq
 
-from recontrol.claims.values import Approx, Membership, Result, Statement
+from recontrol.claims.proofs import located, proven, provided, verified
+from recontrol.claims.values import Approx, Membership, Result, Statement, weakest
 from recontrol.exact import ball, rational
 from recontrol.lmi import verify
 
@@ -54,52 +55,42 @@ def placed_gain(synthesis: Any) -> Result:
     return Result(Approx(float(nearest), 1e-6), {name: dict(entry) for name, entry in report.items()})
 
 
-def _membership(certificate: Any, inside: bool) -> Membership:
-    """What a verified certificate decides; open if it does not verify."""
-    found = verify.check(certificate)
-    return Membership(inside if found.holds else None, found.strength, found.why)
-
-
 def solvable(certificates: Any, synthesis: Any, case: str) -> Result:
     """(38) contains (14), which has no solution for this observer gain."""
     margin = synthesis["multipliers"][case]["t"]
     words = {solver: record["words"] for solver, record in synthesis["P38"][case].items()}
     evidence = {"t* [1/s]": float(margin), "what solvers say": words}
-    return Result(_membership(certificates[f"p38_{case}"], False), evidence, f"p38_{case}")
+    return located(certificates, f"p38_{case}", evidence)
 
 
 def solvable_placed(certificates: Any) -> Result:
     """The same for the gains of three placement algorithms."""
     names = ("yang_tits", "varga", "kautsky")
-    answers = [verify.check(certificates[f"p38_{name}"]) for name in names]
-    decided = all(answer.holds for answer in answers)
-    return Result(Membership(False if decided else None, "exact", "; ".join(names)), {}, "p38_yang_tits")
+    answers = [Membership.from_certificate(certificates[f"p38_{name}"]) for name in names]
+    inside = False if all(answer.inside is False for answer in answers) else None
+    strength = weakest([answer.strength for answer in answers])
+    return Result(Membership(inside, strength, "; ".join(names)), {}, "p38_yang_tits")
 
 
 def X_definite(certificates: Any) -> Result:
-    from recontrol.claims.values import certified
-
-    return Result(certified(certificates["X_definite"]), {}, "X_definite")
+    return proven(certificates, "X_definite")
 
 
 def satisfies_eq14(certificates: Any, case: str) -> Result:
-    return Result(_membership(certificates[f"eq14_{case}"], False), {}, f"eq14_{case}")
+    return located(certificates, f"eq14_{case}")
 
 
 def req_i(certificates: Any, case: str) -> Result:
-    from recontrol.claims.values import certified
-
-    return Result(certified(certificates[f"stable_{case}"]), {}, f"stable_{case}")
+    return proven(certificates, f"stable_{case}")
 
 
 def req_iii(data: Any, certificates: Any, case: str) -> Result:
     """u_max minus the proven bound of each axis, from the certificates; a margin of the squares, exact."""
     margins, evidence = {}, {}
     for axis, limit in zip("xyz", data.float("u_max")[0], strict=True):
-        certificate = certificates[f"thrust_{case}_{axis}"]
-        found = verify.check(certificate)
-        square = verify.number(certificate["bound"]["value"])
-        margins[f"1 - (bound/u_max)^2, {axis}"] = (fmpq(1) - square) if found.holds else ball.ball(0, 1)
+        name = f"thrust_{case}_{axis}"
+        square = verify.number(certificates[name]["bound"]["value"])
+        margins[f"1 - (bound/u_max)^2, {axis}"] = provided(verified(certificates, name), fmpq(1) - square)
         evidence[f"bound {axis} [N]"] = float(limit) * float(rational.to_float(square)) ** 0.5
     return Result(Statement(margins), evidence, f"thrust_{case}_x")
 

@@ -126,15 +126,14 @@ class Membership:
 
     @staticmethod
     def from_certificate(certificate: Mapping[str, Any]) -> Membership:
-        """Truth and strength from the standalone verifier; the statement says `membership` or `exclusion`."""
-        import recontrol.lmi.verify as verify
+        """Truth and strength from the standalone verifier, by the certificate's statement.
 
-        verified = verify.check(certificate)
-        kind = certificate.get("statement")
-        if kind not in ("membership", "exclusion"):
+        `membership` is a point inside; `exclusion` and `infeasible` leave none. Raises ValueContractError for others.
+        """
+        kind, answer = certificate.get("statement"), certified(certificate)
+        if kind not in ("membership", "exclusion", "infeasible"):
             raise ValueContractError(f"a certificate of statement {kind!r} decides no membership")
-        inside = (kind == "membership") if verified.holds else None
-        return Membership(inside, verified.strength, verified.why)
+        return Membership((kind == "membership") if answer.holds else None, answer.strength, answer.why)
 
 
 @dataclass(frozen=True)
