@@ -3,9 +3,9 @@
 import numpy as np
 import pytest
 
-from papers.hashim2015 import figures
-from papers.hashim2015.figures.published import origin_of
+from papers.hashim2015.figures.published import ace, origin_of
 from recontrol import paper
+from recontrol.pipeline import inputs
 from tests.conftest import ROOT
 from tests.papers.hashim2015_artifacts import DATA, MODEL, SYNTHESIS, call, simulated
 
@@ -14,7 +14,7 @@ NAMES = list(paper.load(ROOT / "papers/hashim2015").file.figures)
 
 @pytest.mark.parametrize("name", NAMES)
 def test_every_figure_is_drawn_at_column_width_with_units(name):
-    fig, curves = call(getattr(figures, name.replace("-", "_")), simulation=simulated())
+    fig, curves = call(inputs.function_of("hashim2015", "figures", name), simulation=simulated())
     assert fig.get_size_inches()[0] == pytest.approx(88 / 25.4)
     labels = [text for ax in fig.axes for text in (ax.get_xlabel(), ax.get_ylabel()) if text]
     assert labels
@@ -29,7 +29,7 @@ def test_every_figure_is_drawn_at_column_width_with_units(name):
 
 def test_digit_map_of_55_by_exact_rationals():
     """Eight cells follow from A_c in place of A; (1,6) and (6,5) from neither; all else from the derivation."""
-    _, curves = figures.ace(DATA, MODEL, SYNTHESIS)
+    _, curves = ace(DATA, MODEL, SYNTHESIS)
     cells = {name: set(zip(x.astype(int), y.astype(int), strict=True)) for name, (x, y) in curves.items()}
     assert cells["neither"] == {(6, 1), (5, 6)}  # (column, row)
     assert cells["A_c for A"] == {(c, 1) for c in (1, 2, 3, 4)} | {(c, 5) for c in (5, 6, 7, 8)}

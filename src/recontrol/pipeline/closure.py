@@ -9,6 +9,7 @@ from __future__ import annotations
 import ast
 import json
 import os
+import re
 from functools import cache
 from pathlib import Path
 
@@ -41,11 +42,17 @@ COMMANDS = dict.fromkeys(ORDER, "stage") | {
 """Stage -> module of recontrol.pipeline that runs it."""
 
 
-def code_of(stage: str, paper: str, root: Path | str = ".") -> list[str]:
-    """Files, relative to `root`, that `stage` of `paper` and all earlier stages load, and the runner's own."""
+def code_of(stage: str, paper: str, root: Path | str = ".", figure: str | None = None) -> list[str]:
+    """Files, relative to `root`, that `stage` of `paper` and all earlier stages load, and the runner's own.
+
+    Of the drawing code only the topic that defines `figure`, so that an edit redraws what it may change.
+    """
     base = Path(root).resolve()
     earlier = ORDER[: ORDER.index(stage) + 1] if stage in ORDER else (*ORDER, stage)
     modules = {module for name in earlier for module in _stage_modules(paper, MODULES[name], base)}
+    if figure is not None:
+        modules -= set(_stage_modules(paper, MODULES[stage], base))
+        modules |= {f"papers.{paper}.{MODULES[stage]}", home_of(paper, MODULES[stage], figure, base)}
     modules |= {f"recontrol.pipeline.{COMMANDS[name]}" for name in earlier} | {"recontrol.pipeline.__main__"}
     return files_of(frozenset(modules), base)
 
@@ -54,6 +61,16 @@ def _stage_modules(paper: str, name: str, base: Path) -> list[str]:
     """The module of a stage, and all topics of it where it is a package: claims name their functions as topic.name."""
     topics = sorted(path.stem for path in (base / "papers" / paper / name).glob("[!_]*.py"))
     return [f"papers.{paper}.{name}", *(f"papers.{paper}.{name}.{topic}" for topic in topics)]
+
+
+def home_of(paper: str, name: str, function: str, root: Path | str = ".") -> str:
+    """The module that defines a function: papers.<paper>.<name>, or the topic of that package where it stands."""
+    package = f"papers.{paper}.{name}"
+    start = re.compile(rf"^def {re.escape(function.replace('-', '_'))}\(", re.MULTILINE)
+    for path in sorted(Path(root, "papers", paper, name).glob("[!_]*.py")):
+        if start.search(path.read_text(encoding="utf-8")):
+            return f"{package}.{path.stem}"
+    return package
 
 
 @cache

@@ -88,8 +88,8 @@ class Graph:
 
     @staticmethod
     def code(stage: str) -> Callable[[Any], list[str]]:
-        """Input function: every file that a stage and all earlier ones of the wildcard's paper may import."""
-        return lambda wildcards: code_of(stage, wildcards.paper)
+        """Input function: every file that a stage and all earlier ones of the wildcards' paper may import."""
+        return lambda wildcards: code_of(stage, wildcards.paper, figure=wildcards.get("figure"))
 
     @staticmethod
     def tools(*modules: str) -> list[str]:

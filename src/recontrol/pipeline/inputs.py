@@ -13,7 +13,7 @@ from typing import Any
 from recontrol import paper as papers
 from recontrol.errors import RecontrolError, StageError, UnknownNameError
 from recontrol.pipeline import store
-from recontrol.pipeline.closure import ORDER
+from recontrol.pipeline.closure import ORDER, home_of
 from recontrol.pipeline.layout import artifact, series_file
 
 
@@ -127,9 +127,13 @@ def module_of(key: str, name: str) -> ModuleType:
 
 
 def function_of(key: str, module: str, name: str) -> Callable[..., Any]:
-    """The function `name` (or `topic.name` in a package) of a paper module. Raises StageError if there is none."""
+    """The function `name` of a paper's module, or of a topic of that package (`topic.name` says of which).
+
+    Raises StageError if there is none.
+    """
     topic, _, function = name.rpartition(".")
-    home = module_of(key, f"{module}.{topic}" if topic else module)
+    found_in = f"{module}.{topic}" if topic else home_of(key, module, function).removeprefix(f"papers.{key}.")
+    home = module_of(key, found_in)
     found = getattr(home, function.replace("-", "_"), None)
     if not callable(found):
         raise StageError(f"{home.__name__.replace('.', '/')}: has no function {function.replace('-', '_')!r}")

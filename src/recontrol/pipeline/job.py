@@ -15,7 +15,7 @@ from recontrol.pipeline.encode import sha256
 
 def publish(stage: str, key: str, part: str | None, contents: Mapping[Path, bytes], inputs: list[Path]) -> None:
     """Publish the artifacts of one job after checking that it imported only what its rule declared."""
-    declared = closure.code_of(stage, key)
+    declared = closure.code_of(stage, key, figure=part if stage == "figure" else None)
     loaded = {name: file for name, module in list(sys.modules.items()) if (file := getattr(module, "__file__", None))}
     surplus = closure.undeclared(loaded, declared)
     if surplus:

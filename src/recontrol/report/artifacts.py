@@ -5,7 +5,6 @@ from __future__ import annotations
 import hashlib
 import json
 from collections.abc import Iterator
-from fractions import Fraction
 from pathlib import Path
 from typing import Any
 
@@ -18,7 +17,7 @@ SCHEMA = "recontrol/index/1"
 DIGITS = 6
 """Significant digits that a canonical digest keeps, so that it survives another processor."""
 
-TINY = Fraction(1, 10**12)
+TINY = 1e-12
 DEPTH = 4
 CLAIM_KEYS = ("id", "where", "printed", "unit", "verdict", "strength", "reading", "found", "explained_by", "origin")
 Entry = dict[str, Any]
@@ -158,8 +157,12 @@ def canonical(value: Any) -> Any:
     if isinstance(value, list):
         return [canonical(item) for item in value]
     if isinstance(value, float):
-        return numbers.rounded(Fraction(repr(value)), DIGITS, TINY)
-    return numbers.rounded_text(value, DIGITS, TINY) if isinstance(value, str) else value
+        return _rounded(value)
+    return numbers.DECIMAL.sub(lambda match: _rounded(float(match[0])), value) if isinstance(value, str) else value
+
+
+def _rounded(value: float) -> str:
+    return "0" if abs(value) < TINY else f"{value:.{DIGITS - 1}e}"
 
 
 def _series_digest(path: Path) -> str:
@@ -179,7 +182,7 @@ def _series_digest(path: Path) -> str:
 def _rounded_bytes(array: Any) -> bytes:
     import numpy as np
 
-    small = np.abs(array) < float(TINY)
+    small = np.abs(array) < TINY
     size = np.where(small, 1.0, np.abs(array))
     exponent = np.floor(np.log10(size)).astype(int)
     mantissa = np.round(np.where(small, 0.0, array) / 10.0 ** (exponent - DIGITS + 1)).astype(np.int64)

@@ -150,13 +150,11 @@ def _table(path: Path) -> str:
                 columns[label] = column
     if not columns:
         return ""
-    text = io.StringIO()
-    writer = csv.writer(text, lineterminator="\n")
-    writer.writerow(columns)
+    head = io.StringIO()
+    csv.writer(head, lineterminator="\n").writerow(columns)
     length = max(len(column) for column in columns.values())
-    padded = [[repr(x) for x in column.tolist()] + [""] * (length - len(column)) for column in columns.values()]
-    writer.writerows(zip(*padded, strict=True))
-    return text.getvalue()
+    padded = [[*map(repr, column.tolist())] + [""] * (length - len(column)) for column in columns.values()]
+    return head.getvalue() + "".join(f"{','.join(row)}\n" for row in zip(*padded, strict=True))
 
 
 def _columns(name: str, array: Any) -> list[tuple[str, Any]]:

@@ -13,9 +13,7 @@ from typing import Any
 
 _REAL = r"[+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?"
 _REAL_ONLY = re.compile(_REAL)
-_DECIMAL = re.compile(
-    r"(?<![\w.])[+-]?\d+(?:\.\d+(?:[eE][+-]?\d{1,3})?|[eE][+-]?\d{1,3})(?=[ij]?(?:[^\w.]|\.(?!\d)|$))"
-)
+DECIMAL = re.compile(r"(?<![\w.])[+-]?\d+(?:\.\d+(?:[eE][+-]?\d{1,3})?|[eE][+-]?\d{1,3})(?=[ij]?(?:[^\w.]|\.(?!\d)|$))")
 _COMPLEX = re.compile(rf"(?P<re>{_REAL})(?P<sign>\+-|\+/-|±|[+-])(?P<im>(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?)[ij]")
 
 
@@ -177,17 +175,12 @@ def fixed(value: Fraction, decimals: int) -> str:
     return f"{sign}{digits[:-decimals]}.{digits[-decimals:]}" if decimals else sign + digits
 
 
-def rounded_text(text: str, digits: int = 6, tiny: Fraction = Fraction(0)) -> str:
-    """Return a text with every decimal number rounded to that many significant digits, ``0`` for one below ``tiny``.
+def rounded_text(text: str, digits: int = 6) -> str:
+    """Return a text with every decimal number rounded to that many significant digits.
 
     Integers, rationals and what only looks like a number inside a word (a digest) stay as they are.
     """
-    return _DECIMAL.sub(lambda match: rounded(Fraction(match[0]), digits, tiny), text)
-
-
-def rounded(value: Fraction, digits: int, tiny: Fraction) -> str:
-    """Return ``value`` to significant digits, ``0`` if its magnitude is below ``tiny``."""
-    return "0" if abs(value) < tiny else significant(value, digits)
+    return DECIMAL.sub(lambda match: significant(Fraction(match[0]), digits), text)
 
 
 def magnitude(value: Fraction) -> int:
