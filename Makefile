@@ -6,7 +6,7 @@ BIN = $(VENV)/bin
 LOCK_DATE ?=
 
 .DEFAULT_GOAL := help
-.PHONY: help reproduce test check lint unit build environment test-environment bench slurm faults matrix lock schemas book picture bundle clean distclean
+.PHONY: help reproduce test check lint unit build environment test-environment bench slurm speed faults matrix lock schemas book picture bundle clean distclean
 
 help: ## this list
 	@grep -hE '^[a-z-]+:.*## ' $(MAKEFILE_LIST) | sed 's/:.*## /\t/' | expand -t 18
@@ -41,6 +41,9 @@ bench: environment ## speed of the ensembles against plain loops; writes docs/pe
 
 matrix: test-environment ## all papers under other kernels, threads, solvers and Pythons; writes docs/reproducibility.md (an hour)
 	@PYTHONPATH=src:. $(VENV)-test/bin/python tools/matrix.py
+
+speed: environment ## the chain from nothing and after single edits; writes docs/performance.md (ten minutes, on a quiet machine)
+	@PYTHONPATH=src:. $(BIN)/python tools/speed.py
 
 schemas: test-environment ## JSON Schemas of paper.yaml and claims.yaml for editors
 	@$(VENV)-test/bin/python tools/schemas.py
