@@ -58,13 +58,20 @@ class Quantity(Strict):
     what: Text
 
 
+Tolerance = Annotated[str, StringConstraints(pattern=r"^\d(\.\d+)?e-\d+$")]
+
+
 class FigureEntry(Strict):
-    """One figure of the folder: `of` is `paper` (a redrawn one) or `finding`."""
+    """One figure of the folder: `of` is `paper` (a redrawn one) or `finding`.
+
+    A curve may drift from its reviewed reference by `tolerance` of its range; `looser` names curves with another one.
+    """
 
     title: Text
     caption: Text
     of: Annotated[str, StringConstraints(pattern="^(paper|finding)$")] = "finding"
-    tolerance: Annotated[str, StringConstraints(pattern=r"^\d(\.\d+)?e-\d+$")] = "1e-4"
+    tolerance: Tolerance = "1e-4"
+    looser: dict[str, Tolerance] = {}
 
 
 class Outcome(Strict):
