@@ -87,3 +87,5 @@ for key in PAPERS:
             key
         input:
             graph.everything(key),
+            graph.exports(key),
+            graph.ensembles([key]),
