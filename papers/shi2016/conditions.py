@@ -42,8 +42,8 @@ def brl_std_fixed(X: Any, K: Any, A: Any, B1: Any, B2: Any, C1: Any, D1: Any, D2
 def h2_lyapunov(X: Any, W: Any, A: Any, B1: Any, B2: Any, factor: Any) -> Any:
     """(9), first line, 6 x 6, at ``factor`` X; the paper's Q = KX is called W here, as in (8).
 
-    The factor is 1 in SI units. In scaled units an X shared with (8) enters (9) a thousand times larger, because (8)
-    weighs the disturbance by 1/gamma_inf, which is about a thousand.
+    The factor is 1 in SI units. In scaled units an X shared with (8) enters (9) 1/z_weight times larger, because (8)
+    weighs the disturbance by 1/gamma_inf, and gamma_inf is counted in units of z_weight.
     """
     return factor * he(A @ X + B1 @ W) + B2 @ B2.T
 

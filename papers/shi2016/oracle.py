@@ -6,6 +6,8 @@ In scaled units D1 = D2 = I and C = C1 + K. With c = g^2 - 1 and At = Acl + B2 C
 
 from __future__ import annotations
 
+from typing import Any
+
 import numpy as np
 from flint import arb, fmpq
 
@@ -19,30 +21,30 @@ KINDS = ("trad", "std", "prt")
 
 def least_rho(matrices: dict[str, np.ndarray], K: np.ndarray, kind: str, g: fmpq, shift: fmpq = riccati.SHIFT) -> arb:
     """Infimum of rho in scaled units. Raises NoSolutionError if g is not above the scaled H-infinity norm."""
+    weights = {"trad": (g, g), "std": (g * g, fmpq(1)), "prt": (g, g)}[kind]
     with precision(160):
-        A, B, C2 = plant.closed_loop(matrices, K), matrices["B2"], matrices["C2"]
-        C, excess = matrices["C1"] + K, g * g - 1
-        closed = to_ball(A + B @ C * (1 / excess))
-        source, feedback = B @ B.T, C.T @ C
-        weights = {"trad": (g, g), "std": (g * g, fmpq(1)), "prt": (g, g)}[kind]
+        closed, source, feedback = (to_ball(M) for M in bounded_real(matrices, K, g, weights))
         if kind == "prt":
-            found = riccati.bounds(closed, _times(feedback, g / excess), _times(source, g / excess), shift=shift)
+            found = riccati.bounds(closed, feedback, source, shift=shift)
         else:
-            first, second = weights
-            found = riccati.bounds(
-                closed.T, _times(source, first / excess), _times(feedback, second / excess), shift=shift
-            )
-        return found.trace(C2)
+            found = riccati.bounds(closed.T, source, feedback, shift=shift)
+        return found.trace(matrices["C2"])
 
 
-def _times(M: np.ndarray, factor: fmpq) -> np.ndarray:
-    return to_ball(M * factor)
+def bounded_real(
+    matrices: dict[str, np.ndarray], K: np.ndarray, g: fmpq, weights: tuple[fmpq, fmpq] | None = None
+) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """At, w1/c B2 B2' and w2/c C'C of the head of this module, scaled units; ``weights`` w1, w2 are g, g for (8)."""
+    first, second = weights or (g, g)
+    B, C, excess = matrices["B2"], matrices["C1"] + K, g * g - 1
+    closed = plant.closed_loop(matrices, K) + B @ C * (1 / excess)
+    return closed, B @ B.T * (first / excess), C.T @ C * (second / excess)
 
 
-def unit_of(kind: str, name: str) -> fmpq:
+def unit_of(data: Any, kind: str, name: str) -> fmpq:
     """Factor from scaled to printed rho, which is in SI units (see `plant.scale_factors`)."""
-    h = plant.scale_factors(name)["h"]
-    return {"trad": 1000 * h, "std": h, "prt": 1 / (1000 * h)}[kind]
+    factors = plant.scale_factors(data, name)
+    return {"trad": factors["h8"], "std": factors["h"], "prt": 1 / factors["h8"]}[kind]
 
 
 def h2_squared(matrices: dict[str, np.ndarray], K: np.ndarray) -> arb:

@@ -89,23 +89,30 @@ def matrices(data: Any, rate: Any) -> dict[str, np.ndarray]:
     }
 
 
-def units(name: str) -> Units:
-    """Scaled units of `SCALES`: x_s = (q, q'/ws), t_s = ws t, torques over ts, z_s = z_inf / (1e-3 ts)."""
+def units(data: Any, name: str) -> Units:
+    """Scaled units of `SCALES`: x_s = (q, q'/ws), t_s = ws t, torques over ts, z_s = z_inf / (z_weight ts)."""
     frequency, torque = matrix([list(SCALES[name])])[0]
     return Units(
-        state=[1, 1, 1, frequency, frequency, frequency], input=torque, output=torque / 1000, time=1 / frequency
+        state=[1, 1, 1, frequency, frequency, frequency],
+        input=torque,
+        output=torque * data["z_weight"],
+        time=1 / frequency,
     )
 
 
-def scale_factors(name: str) -> dict[str, fmpq]:
-    """``ws``, ``ts`` and h = ws/ts^2; squared H2 norms are h times, squared efforts ws times the scaled ones."""
+def scale_factors(data: Any, name: str) -> dict[str, fmpq]:
+    """``ws``, ``ts``, h = ws/ts^2 and ``h8`` = h / z_weight.
+
+    Squared H2 norms are h times, squared efforts ws times, X of (8) as printed h8 times the scaled ones.
+    """
     frequency, torque = matrix([list(SCALES[name])])[0]
-    return {"ws": frequency, "ts": torque, "h": frequency / torque**2}
+    h = frequency / torque**2
+    return {"ws": frequency, "ts": torque, "h": h, "h8": h / data["z_weight"]}
 
 
 def scaled(data: Any, rate: Any, name: str) -> dict[str, np.ndarray]:
-    """The matrices of (3) in the units of `units`; there D1 = D2 = I, C1 = low and gamma is g = gamma_inf / 1e-3."""
-    unit, plant = units(name), matrices(data, rate)
+    """The matrices of (3) in the units of `units`; there D1 = D2 = I, C1 = low, gamma is gamma_inf / z_weight."""
+    unit, plant = units(data, name), matrices(data, rate)
     return {
         "A": unit.dynamics(plant["A"]),
         "B1": unit.inputs(plant["B1"]),
@@ -119,7 +126,7 @@ def scaled(data: Any, rate: Any, name: str) -> dict[str, np.ndarray]:
 
 def scaled_gain(data: Any, name: str) -> np.ndarray:
     """Published gain ``ext`` or ``trad`` (3, 6), exact, in its own scaled units."""
-    return units(name).gain(data[GAINS[name]])
+    return units(data, name).gain(data[GAINS[name]])
 
 
 def gain_box(data: Any, name: str, zeros_rounded: bool = False) -> np.ndarray:

@@ -1,6 +1,7 @@
 """The semidefinite programs of the folder, each in the scaled units of its design (see `plant.SCALES`).
 
-Data are exact: the orbital rate enters rounded to 16 decimals, g = gamma_inf / 1e-3. ``case`` is a text that `source`
+Data are exact: the orbital rate enters rounded to 16 decimals, g = gamma_inf / z_weight, z_weight
+being the factor 1e-3 of z_inf in (3). ``case`` is a text that `source`
 turns back into the data, so that every certificate can be rebuilt from paper.yaml.
 """
 
@@ -38,7 +39,7 @@ def source(data: Any, case: str) -> dict[str, Any]:
         matrices["K"] = plant.scaled_gain(data, name) if kind == "scaled" else data[plant.GAINS[name]]
         matrices["Ms"] = sharing_matrix(matrices)
     if kind == "scaled":
-        matrices["M"], matrices["N"] = data["M"], plant.units(name).gain(data["N"])
+        matrices["M"], matrices["N"] = data["M"], plant.units(data, name).gain(data["N"])
     return matrices
 
 
@@ -71,17 +72,27 @@ def _problem(
     return Problem(name, variables, conditions, data, objective, paper="shi2016", case=case, source=SOURCE, **more)
 
 
+def _level(data: Any, g: fmpq, units: str) -> fmpq:
+    """gamma of (8) at level g: g itself in scaled units."""
+    return g if units == "scaled" else g * data["z_weight"]
+
+
+def _shared_factor(data: Any, shared: bool) -> fmpq:
+    """Factor of X in `conditions.h2_lyapunov`: 1 unless it shares a scaled X with (8) as printed."""
+    return 1 / data["z_weight"] if shared else fmpq(1)
+
+
 def fixed(data: Any, gain: str, kind: str, g: fmpq, units: str = "scaled", **more: Any) -> Problem:
     """Least rho for a published gain: ``trad`` is (8) with (9) and one X, ``std`` the same with `brl_std`, ``prt`` what
     is left of Theorem 2 once its vacuous block is dropped."""
     case = f"{units}:{gain}"
     matrices = source(data, case)
-    given = pick(matrices, "A B1 B2 C1 C2 D1 D2 K", gamma=g if units == "scaled" else g / 1000)
+    given = pick(matrices, "A B1 B2 C1 C2 D1 D2 K", gamma=_level(data, g, units))
     if kind == "prt":
         conditions = [c.brl_fixed, c.output_coupling]
         return _problem(f"rho-prt-{gain}", case, {"X": X6, "Z": Y3}, conditions, given, minimise(c.total), **more)
     bounded_real = c.brl_fixed if kind == "trad" else c.brl_std_fixed
-    given["factor"] = fmpq(1000 if kind == "trad" and units == "scaled" else 1)
+    given["factor"] = _shared_factor(data, kind == "trad" and units == "scaled")
     conditions = [bounded_real, c.h2_lyapunov_fixed]
     return _problem(f"rho-{kind}-{gain}", case, {"X": X6}, conditions, given, minimise(c.output_energy), **more)
 
@@ -98,8 +109,7 @@ def h2_effort(data: Any, gain: str, effort_squared: fmpq, units: str = "scaled",
 def single(data: Any, kind: str, g: fmpq, effort_squared: fmpq, units: str = "scaled", **more: Any) -> Problem:
     """One X for both norms with an effort bound: ``std`` or ``print`` (the normalisation of (8)), in units of K_ext."""
     case = f"{units}:ext"
-    factor = fmpq(1000 if kind == "print" and units == "scaled" else 1)
-    gamma = g if units == "scaled" else g / 1000
+    factor, gamma = _shared_factor(data, kind == "print" and units == "scaled"), _level(data, g, units)
     given = pick(source(data, case), "A B1 B2 C1 C2 D1 D2", gamma=gamma, factor=factor, rho=effort_squared / factor)
     conditions = [
         c.brl if kind == "print" else c.brl_std,
@@ -114,7 +124,7 @@ def single(data: Any, kind: str, g: fmpq, effort_squared: fmpq, units: str = "sc
 def least_effort(data: Any, g: fmpq) -> Problem:
     """Least certified effort Tr(W X^{-1} W') of any gain that satisfies (8) as printed, in the units ``orbit``.
 
-    The X of (8) is that of SI units over 1000 h, so the squared effort is 1000 ws times the optimal value.
+    The X of (8) is that of SI units over h / z_weight: the squared effort is ws / z_weight times the optimal value.
     """
     case = "scaled:orbit"
     given = pick(source(data, case), "A B1 B2 C1 D1 D2", gamma=g)
@@ -185,7 +195,7 @@ def extended(data: Any, g: fmpq) -> Problem:
 def traditional(data: Any, g: fmpq) -> Problem:
     """Lemmas 1 and 2 with one X and W = Q, without an effort bound: least Tr(C2 X C2')."""
     case = "scaled:ext"
-    given = pick(source(data, case), "A B1 B2 C1 C2 D1 D2", gamma=g, factor=fmpq(1000))
+    given = pick(source(data, case), "A B1 B2 C1 C2 D1 D2", gamma=g, factor=_shared_factor(data, True))
     conditions = [c.brl, c.h2_lyapunov]
     return _problem("traditional", case, {"X": X6, "W": W36}, conditions, given, minimise(c.output_energy))
 

@@ -50,7 +50,7 @@ def test_scaling_changes_no_norm(data):
     rate = plant.orbital_rate(data)
     si, K = plant.matrices(data, rate), data["K_trad"]
     for name in ("trad", "ext"):
-        unit, factors = plant.units(name), plant.scale_factors(name)
+        unit, factors = plant.units(data, name), plant.scale_factors(data, name)
         scaled = plant.scaled(data, rate, name)
         ratio = oracle.h2_squared(scaled, unit.gain(K)) * factors["h"] / oracle.h2_squared(si, K)
         assert abs(float(ratio) - 1) < 1e-12

@@ -83,10 +83,10 @@ def decay_ext(data: Any) -> dict[str, Any]:
 
 def _decay_matrix(data: Any, rate: fmpq) -> np.ndarray:
     scaled, K = problems.source(data, "scaled:ext"), plant.scaled_gain(data, "ext")
-    A = plant.closed_loop(scaled, K) + identity(6) * (rate / plant.scale_factors("ext")["ws"])
+    A = plant.closed_loop(scaled, K) + identity(6) * (rate / plant.scale_factors(data, "ext")["ws"])
     push = scaled["B1"] @ scaled["M"]
     X = riccati.minimal_solution(A.T, push @ push.T + identity(6), scaled["N"].T @ scaled["N"])
-    return plant.units("ext").quadratic(rounded(inverse(rounded(X, 12)), 10), back=True)
+    return plant.units(data, "ext").quadratic(rounded(inverse(rounded(X, 12)), 10), back=True)
 
 
 def single_print(data: Any) -> dict[str, Any]:

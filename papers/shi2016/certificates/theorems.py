@@ -20,7 +20,7 @@ from recontrol.lmi.variables import full, symmetric
 from recontrol.systems import riccati
 
 from .. import conditions as c
-from .. import plant, problems
+from .. import oracle, plant, problems
 from ..problems import SOURCE, pick
 
 ADMITTED, BACKED_OFF = "1.01", "1.005"
@@ -34,33 +34,28 @@ def _si(data: Any, gain: str) -> tuple[str, dict[str, Any]]:
     return case, problems.source(data, case)
 
 
-def _to_si(name: str, X: np.ndarray, factor: Any) -> np.ndarray:
-    """Scaled X (6, 6) of (8) in SI units, times ``factor`` (1000 h for (8) as printed)."""
-    return plant.units(name).covariance(X, back=True) * factor
-
-
-def _x_of_brl(data: Any, gain: str, g: str, decimals: int = 12) -> np.ndarray:
-    """X > 0 (6, 6), exact, that satisfies (8) with a margin: the least one at level g with a small extra source, SI."""
+def _brl_equation(data: Any, gain: str, g: str) -> tuple[np.ndarray, ...]:
+    """Matrices of the Riccati equation of (8) at level g, scaled units (see `oracle.bounded_real`)."""
     scaled, K = problems.source(data, f"scaled:{gain}"), plant.scaled_gain(data, gain)
-    level = decimal(g)
-    excess = level * level - 1
-    C = scaled["C1"] + K
-    closed = plant.closed_loop(scaled, K) + scaled["B2"] @ C * (1 / excess)
-    source = scaled["B2"] @ scaled["B2"].T * (level / excess) + identity(6) * fmpq(1, 10**6)
-    X = riccati.minimal_solution(closed.T, source, C.T @ C * (level / excess))
-    return _to_si(gain, rounded(X, decimals), 1000 * plant.scale_factors(gain)["h"])
+    return oracle.bounded_real(scaled, K, decimal(g))
+
+
+def _x_of_brl(data: Any, gain: str, g: str, *, decimals: int = 12, extra: int = 6, bits: int = 160) -> np.ndarray:
+    """X > 0 (6, 6), exact, that satisfies (8) with a margin: the least one at level g with an extra source, SI.
+
+    The extra source is 10^-extra I in scaled units, in which X is rounded to ``decimals``.
+    """
+    closed, source, feedback = _brl_equation(data, gain, g)
+    X = riccati.minimal_solution(closed.T, source + identity(6) * fmpq(1, 10**extra), feedback, bits=bits)
+    back = plant.units(data, gain).covariance(rounded(X, decimals), back=True)
+    return back * plant.scale_factors(data, gain)["h8"]
 
 
 def _p_of_brl(data: Any, gain: str, g: str) -> np.ndarray:
     """P = X^{-1} (6, 6), exact, for X as in (8): the least one, which makes Tr(C2 P C2') small, SI."""
-    scaled, K = problems.source(data, f"scaled:{gain}"), plant.scaled_gain(data, gain)
-    level = decimal(g)
-    excess = level * level - 1
-    C = scaled["C1"] + K
-    closed = plant.closed_loop(scaled, K) + scaled["B2"] @ C * (1 / excess)
-    source = C.T @ C * (level / excess) + identity(6) * fmpq(1, 10**6)
-    P = rounded(riccati.minimal_solution(closed, source, scaled["B2"] @ scaled["B2"].T * (level / excess)), 12)
-    return plant.units(gain).quadratic(P, back=True) * (1 / (1000 * plant.scale_factors(gain)["h"]))
+    closed, source, feedback = _brl_equation(data, gain, g)
+    P = riccati.minimal_solution(closed, feedback + identity(6) * fmpq(1, 10**6), source)
+    return plant.units(data, gain).quadratic(rounded(P, 12), back=True) * (1 / plant.scale_factors(data, gain)["h8"])
 
 
 def _problem(name: str, case: str, variables: Any, conditions: Any, data: Any) -> Problem:
@@ -74,7 +69,7 @@ def _thm2_printed(data: Any, gain: str) -> dict[str, Any]:
     Q, N2 = problems.vacuous(X, si["A"], si["B2"])
     Z = si["C2"] @ P @ si["C2"].T * SLACK
     rho = np.trace(Z) * SLACK
-    given = pick(si, "A B1 B2 C1 C2 D1 D2 K", gamma=decimal(ADMITTED) / 1000, rho=rho)
+    given = pick(si, "A B1 B2 C1 C2 D1 D2 K", gamma=decimal(ADMITTED) * data["z_weight"], rho=rho)
     conditions = [c.thm1_iii, c.output_coupling, c.trace_below, c.definite, c.brl, c.tied_gain]
     variables = {"X": symmetric(6), "W": full(3, 6), "Q": full(6, 6), "N2": full(6, 6), "Z": symmetric(3)}
     problem = _problem(f"thm2-printed-{gain}", case, variables, conditions, given)
@@ -121,9 +116,9 @@ def tied_shared_trad(data: Any) -> dict[str, Any]:
     return _tied_shared(data, "trad")
 
 
-def _h2_gramian(loop: np.ndarray, source: np.ndarray, gain: str, covariance: bool) -> np.ndarray:
+def _h2_gramian(data: Any, loop: np.ndarray, source: np.ndarray, gain: str, covariance: bool) -> np.ndarray:
     """Exact solution of a Lyapunov inequality a little above the Gramian, rounded in scaled units."""
-    unit = plant.units(gain)
+    unit = plant.units(data, gain)
     A = unit.dynamics(loop)
     if covariance:
         back = unit.covariance
@@ -137,9 +132,9 @@ def _h2_gramian(loop: np.ndarray, source: np.ndarray, gain: str, covariance: boo
     return back(rounded(X * (1 / size), 14) * size, back=True)
 
 
-def _thm1_iii_point(si: dict[str, Any], gain: str) -> dict[str, Any]:
+def _thm1_iii_point(data: Any, si: dict[str, Any], gain: str) -> dict[str, Any]:
     loop = plant.closed_loop(si, si["K"])
-    Y = _h2_gramian(loop, si["B2"] @ si["B2"].T, gain, covariance=True)
+    Y = _h2_gramian(data, loop, si["B2"] @ si["B2"].T, gain, covariance=True)
     X = inverse(Y)
     Q = inverse(identity(6) - loop.T) @ X
     Z = si["C2"] @ Y @ si["C2"].T * (1 + fmpq(1, 10**7))
@@ -148,7 +143,7 @@ def _thm1_iii_point(si: dict[str, Any], gain: str) -> dict[str, Any]:
 
 def _thm1_iii(data: Any, gain: str) -> dict[str, Any]:
     case, si = _si(data, gain)
-    point = _thm1_iii_point(si, gain)
+    point = _thm1_iii_point(data, si, gain)
     given = pick(si, "A B1 B2 C2 K", rho=np.trace(point["Z"]) * (1 + fmpq(1, 10**7)))
     conditions = [c.thm1_iii, c.tied_n2, c.output_coupling, c.trace_below, c.definite]
     variables = {"X": symmetric(6), "Q": full(6, 6), "N2": full(6, 6), "Z": symmetric(3)}
@@ -169,7 +164,7 @@ def thm1_iii_trad(data: Any) -> dict[str, Any]:
 def _thm1_iv(data: Any, gain: str) -> dict[str, Any]:
     case, si = _si(data, gain)
     loop = plant.closed_loop(si, si["K"])
-    R = _h2_gramian(loop, si["C2"].T @ si["C2"], gain, covariance=False)
+    R = _h2_gramian(data, loop, si["C2"].T @ si["C2"], gain, covariance=False)
     X = inverse(R)
     Q = inverse(identity(6) - loop) @ X
     Z = si["B2"].T @ R @ si["B2"] * (1 + fmpq(1, 10**7))
@@ -193,9 +188,9 @@ def thm1_iv_trad(data: Any) -> dict[str, Any]:
 
 def _tied_separate(data: Any, gain: str) -> dict[str, Any]:
     case, si = _si(data, gain)
-    point = _thm1_iii_point(si, gain)
+    point = _thm1_iii_point(data, si, gain)
     given = pick(si, "A B1 B2 C1 C2 D1 D2 K", rho=np.trace(point["Z"]) * (1 + fmpq(1, 10**7)))
-    given["gamma"] = decimal(ADMITTED) / 1000
+    given["gamma"] = decimal(ADMITTED) * data["z_weight"]
     conditions = [
         c.thm1_iii,
         c.tied_n2,
@@ -226,7 +221,8 @@ def _lemmas(data: Any, gain: str) -> dict[str, Any]:
     case, si = _si(data, gain)
     X = _x_of_brl(data, gain, BACKED_OFF)
     Z = si["C2"] @ X @ si["C2"].T * SLACK
-    given = pick(si, "A B1 B2 C1 C2 D1 D2 K", gamma=decimal(ADMITTED) / 1000, rho=np.trace(Z) * SLACK, factor=fmpq(1))
+    gamma = decimal(ADMITTED) * data["z_weight"]
+    given = pick(si, "A B1 B2 C1 C2 D1 D2 K", gamma=gamma, rho=np.trace(Z) * SLACK, factor=fmpq(1))
     conditions = [c.brl, c.h2_lyapunov, c.h2_output, c.trace_below, c.definite, c.tied_gain]
     problem = _problem(
         f"lemmas-{gain}", case, {"X": symmetric(6), "W": full(3, 6), "Z": symmetric(3)}, conditions, given
@@ -247,7 +243,7 @@ def lemmas_trad(data: Any) -> dict[str, Any]:
 
 def _lemma2(data: Any, gain: str) -> dict[str, Any]:
     case, si = _si(data, gain)
-    X = _h2_gramian(plant.closed_loop(si, si["K"]), si["B2"] @ si["B2"].T, gain, covariance=True)
+    X = _h2_gramian(data, plant.closed_loop(si, si["K"]), si["B2"] @ si["B2"].T, gain, covariance=True)
     Z = si["C2"] @ X @ si["C2"].T * (1 + fmpq(1, 10**7))
     given = pick(si, "A B1 B2 C2 K", rho=np.trace(Z) * (1 + fmpq(1, 10**7)), factor=fmpq(1))
     conditions = [c.h2_lyapunov, c.h2_output, c.trace_below, c.definite, c.tied_gain]
@@ -274,22 +270,10 @@ TIGHT = {"ext": ("1.0000378438", "1.00003784375"), "trad": ("1.0000000022", "1.0
 def _brl(data: Any, gain: str) -> dict[str, Any]:
     case, si = _si(data, gain)
     level, inner = TIGHT[gain]
-    X = _tight_x(data, gain, inner)
-    given = pick(si, "A B1 B2 C1 D1 D2 K", gamma=decimal(level) / 1000)
+    X = _x_of_brl(data, gain, inner, decimals=40, extra=12, bits=240)
+    given = pick(si, "A B1 B2 C1 D1 D2 K", gamma=decimal(level) * data["z_weight"])
     problem = _problem(f"brl-{gain}", case, {"X": symmetric(6)}, [c.brl_fixed, c.definite], given)
     return prove_feasible(problem, {"X": X}, says=f"(8) holds for K_{gain} just above the H-infinity norm of its loop")
-
-
-def _tight_x(data: Any, gain: str, g: str) -> np.ndarray:
-    scaled, K = problems.source(data, f"scaled:{gain}"), plant.scaled_gain(data, gain)
-    level = decimal(g)
-    excess = level * level - 1
-    C = scaled["C1"] + K
-    closed = plant.closed_loop(scaled, K) + scaled["B2"] @ C * (1 / excess)
-    source = scaled["B2"] @ scaled["B2"].T * (level / excess)
-    extra = identity(6) * fmpq(1, 10**12)
-    X = riccati.minimal_solution(closed.T, source + extra, C.T @ C * (level / excess), bits=240)
-    return _to_si(gain, rounded(X, 40), 1000 * plant.scale_factors(gain)["h"])
 
 
 def brl_ext(data: Any) -> dict[str, Any]:

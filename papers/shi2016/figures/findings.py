@@ -86,7 +86,7 @@ def pareto(data: Any, synthesis: Any) -> tuple[Any, Curves]:
     limit = float(plant.pareto_constant(data)) / effort**3
     ax.loglog(effort, limit, label="least, decoupled axes", color=plotting.BLACK, linestyle="-", linewidth=0.8)
     curves: Curves = {"least": (effort, limit)}
-    norms = synthesis["norms"]["Re-equatorial"]
+    norms = synthesis["norms"][plant.DEFAULT]
     designs = {n: d for n, d in synthesis["nonfragile"]["designs"].items() if d["certified"] is not None}
     groups = {
         "published": [(norms[g]["effort"], norms[g]["h2"]) for g in plant.GAINS],
@@ -142,7 +142,7 @@ def floquet(synthesis: Any) -> tuple[Any, Curves]:
     plane.plot(np.cos(angle), np.sin(angle), color=plotting.BLACK, linewidth=0.7)
     for gain, style in (("ext", EXT), ("trad", TRAD)):
         words = f"$K_{{{gain}}}$"
-        found = synthesis["floquet"]["enclosed"][gain]["Re-equatorial"]["N-printed"]
+        found = synthesis["floquet"]["enclosed"][gain][plant.DEFAULT]["N-printed"]
         mu = np.array([complex(m) for m in found["multipliers"]])
         mu = mu[np.lexsort((mu.imag, mu.real))]
         plane.plot(mu.real, mu.imag, label=words, **(style.points | {"markersize": 7.0 if gain == "ext" else 4.0}))

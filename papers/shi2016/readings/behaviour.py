@@ -61,7 +61,7 @@ def settling_both(simulation: Any, case: str) -> Any:
 
 def faster(synthesis: Any, model: Any, simulation: Any) -> Result:
     """Slowest pole of K_ext against that of K_trad (a fifth must not reach it), and settling at every fraction."""
-    poles = model["Re-equatorial"]["poles"]
+    poles = model[plant.DEFAULT]["poles"]
     slowest = {gain: max(complex(p).real for p in poles[gain]) for gain in plant.GAINS}
     margins: dict[str, Any] = {
         "decay rate over 5 times the other": Approx(-slowest["ext"] + 5 * slowest["trad"], 1e-12)
@@ -125,7 +125,7 @@ def unsupported(synthesis: Any) -> Result:
     """No inequality of the paper contains M, F or N; instead, the multiple of Delta K that K_ext tolerates."""
     found = synthesis["floquet"]["enclosed"]
     evidence = {
-        f"quadratic-stability radius, K_{gain} (1 is the print)": found[gain]["Re-equatorial"]["N-printed"]["radius"]
+        f"quadratic-stability radius, K_{gain} (1 is the print)": found[gain][plant.DEFAULT]["N-printed"]["radius"]
         for gain in plant.GAINS
     }
     designs = synthesis["nonfragile"]["designs"]
@@ -134,4 +134,4 @@ def unsupported(synthesis: Any) -> Result:
         for name, design in designs.items()
         if design["certified"] is not None
     }
-    return Result(found["ext"]["Re-equatorial"]["N-printed"]["radius"], evidence)
+    return Result(found["ext"][plant.DEFAULT]["N-printed"]["radius"], evidence)

@@ -158,14 +158,14 @@ def state_matrix() -> Identity:
     return Identity(printed, attitude.lvlh_state_matrix())
 
 
-def output_matrix() -> Identity:
-    """C1 x + D1 u + D2 d of (3) equals 1e-3 J q'' along the linear model."""
+def output_matrix(data: Any) -> Identity:
+    """C1 x + D1 u + D2 d of (3) equals z_weight J q'' along the linear model."""
     import sympy as sp
 
     s = _s()
     state = sp.Matrix([*s["angles"], *s["rates"]])
     torque, disturbance = sp.Matrix(sp.symbols("u1:4")), sp.Matrix(sp.symbols("d1:4"))
-    weight = sp.Rational(1, 1000)
+    weight = sp.Rational(int(data["z_weight"].p), int(data["z_weight"].q))
     printed = weight * (_printed_rows() * state + torque + disturbance)
     inertia = sp.diag(*s["inertia"])
     acceleration = attitude.lvlh_state_matrix()[3:, :] * state + inertia.inv() * (torque + disturbance)
@@ -173,9 +173,9 @@ def output_matrix() -> Identity:
 
 
 def least_gamma(data: Any, synthesis: Any) -> Result:
-    """No gamma is printed; the gain at infinite frequency is that of D2, so gamma_inf > 1e-3 is necessary for (8).
+    """No gamma is printed; the gain at infinite frequency is that of D2, so gamma_inf > z_weight is necessary for (8).
 
-    For any X and W, (8) contains [-gamma, D2; D2', -gamma] on each axis; at gamma = 1e-3 its determinant vanishes.
+    For any X and W, (8) contains [-gamma, D2; D2', -gamma] on each axis; at gamma = z_weight its determinant vanishes.
     """
     from recontrol.exact.rational import identity
 
@@ -186,7 +186,7 @@ def least_gamma(data: Any, synthesis: Any) -> Result:
     plants = {name: si[name] for name in ("A", "B1", "B2", "C1", "D1", "D2")}
     pair = conditions.brl(identity(6), zero, **plants, gamma=level)[np.ix_([6, 9], [6, 9])]
     found = {
-        f"H-infinity norm, K_{gain}, lower bound": synthesis["norms"]["Re-equatorial"][gain]["hinf"]["lower"]
+        f"H-infinity norm, K_{gain}, lower bound": synthesis["norms"][plant.DEFAULT][gain]["hinf"]["lower"]
         for gain in plant.GAINS
     }
     determinant = pair[0, 0] * pair[1, 1] - pair[0, 1] * pair[1, 0]
@@ -198,7 +198,7 @@ def definition2(synthesis: Any) -> Result:
     """Definition 2 literally, the trace of the matrix root, must equal the norm that Lemma 2 computes."""
     margins, evidence = {}, {}
     for gain in plant.GAINS:
-        norms = synthesis["norms"]["Re-equatorial"][gain]
+        norms = synthesis["norms"][plant.DEFAULT][gain]
         margins[f"K_{gain}"] = -abs(norms["trace_of_root"] - norms["h2"])
         evidence |= {f"trace of the root, K_{gain}": norms["trace_of_root"], f"H2 norm, K_{gain}": norms["h2"]}
     return Result(Statement(margins, strict=False), evidence)
@@ -210,6 +210,6 @@ def definition2_root(synthesis: Any) -> Statement:
     return Statement(
         {
             f"K_{gain}": arb(fmpq(1, 10**12)) - abs(found["h2_dual"] - found["h2"])
-            for gain, found in synthesis["norms"]["Re-equatorial"].items()
+            for gain, found in synthesis["norms"][plant.DEFAULT].items()
         }
     )

@@ -31,7 +31,7 @@ def bounded_real(certificates: Any, synthesis: Any) -> Result:
         if not verified(certificates, name):
             return Result(Statement({"certificate": undecided()}))
         gamma = verify.number(certificates[name]["data"]["gamma"])
-        lower = synthesis["norms"]["Re-equatorial"][gain]["hinf"]["lower"]
+        lower = synthesis["norms"][plant.DEFAULT][gain]["hinf"]["lower"]
         margins[f"gap closes, K_{gain}"] = TIGHT - (gamma / lower - 1)
         margins[f"above the norm, K_{gain}"] = gamma / lower - 1
         evidence |= {f"feasible at gamma_inf, K_{gain}": gamma, f"infeasible at, K_{gain}": lower}

@@ -31,9 +31,9 @@ def _norms(data: Any, case: str, gain: str) -> dict[str, Any]:
         A, B, V = plant.closed_loop(si, K), si["B2"], to_ball(K) + si["low"]
         h2 = h2_norm(A, B, si["C2"], bits=plant.BITS)
         effort = h2_norm(A, B, K, bits=plant.BITS)
-        peak = hinf_norm(A, B, V, si["D1"] * 1000, rtol=1e-14, bits=plant.BITS)
-        box = h2_norm(plant.closed_loop(si, plant.gain_box(data, gain)), B, si["C2"], bits=plant.BITS)
         weight = data["z_weight"]
+        peak = hinf_norm(A, B, V, si["D1"] * (1 / weight), rtol=1e-14, bits=plant.BITS)
+        box = h2_norm(plant.closed_loop(si, plant.gain_box(data, gain)), B, si["C2"], bits=plant.BITS)
         gramian = _gramian(A, B, si["C2"])
         return {
             "h2": h2,

@@ -37,16 +37,16 @@ def effort_of(data: Any, gain: str) -> fmpq:
 
 def scaled_effort(data: Any, effort: fmpq, name: str) -> fmpq:
     """Squared effort in the units of `plant.SCALES`."""
-    return effort**2 / plant.scale_factors(name)["ws"]
+    return effort**2 / plant.scale_factors(data, name)["ws"]
 
 
 def performance(data: Any, K: np.ndarray, name: str) -> dict[str, Any]:
-    """h2, effort and excess of the H-infinity norm over 1e-3 of a float gain in scaled units; the gain in SI units."""
+    """h2, effort and H-infinity norm of the loop with a float gain in scaled units; the gain in SI units."""
     from recontrol.systems.norms import hinf_norm, is_hurwitz
 
     exact = rounded(K, 12)
     with precision(plant.BITS):
-        matrices, factors = plant.scaled(data, plant.exact_rate(data), name), plant.scale_factors(name)
+        matrices, factors = plant.scaled(data, plant.exact_rate(data), name), plant.scale_factors(data, name)
         loop = plant.closed_loop(matrices, exact)
         if not is_hurwitz(loop):
             return {"stable": False}
@@ -57,7 +57,7 @@ def performance(data: Any, K: np.ndarray, name: str) -> dict[str, Any]:
             "h2": (oracle.h2_squared(matrices, exact) * factors["h"]).sqrt(),
             "effort": (oracle.effort_squared(matrices, exact) * factors["ws"]).sqrt(),
             "hinf": peak.value * data["z_weight"],
-            "K": plant.units(name).gain(midpoint(exact), back=True),
+            "K": plant.units(data, name).gain(midpoint(exact), back=True),
             "spectral_abscissa": float(poles.real.max()),
         }
 
@@ -88,7 +88,7 @@ def _certified_h2(data: Any, problem: Problem, name: str, X: str = "X", W: str =
     out: dict[str, Any] = {"outcome": record["outcome"], "words": record["words"], "certified": None}
     if found is None:
         return out
-    h = float(arb(plant.scale_factors(name)["h"]))
+    h = float(arb(plant.scale_factors(data, name)["h"]))
     bound = float(np.trace(np.asarray(found["point"][P])[:3, :3]))
     out |= {"certified": float(np.sqrt(h * bound)), "optimal": float(np.sqrt(h * record["value"]))}
     out |= {"margin": found["margin"], "digest": found["digest"]}
@@ -104,7 +104,7 @@ def h2_effort(data: Any) -> dict[str, Any]:
 def _h2_effort(data: Any, gain: str) -> dict[str, Any]:
     effort = effort_of(data, gain)
     bound = scaled_effort(data, effort, gain)
-    matrices, factors = plant.scaled(data, plant.exact_rate(data), gain), plant.scale_factors(gain)
+    matrices, factors = plant.scaled(data, plant.exact_rate(data), gain), plant.scale_factors(data, gain)
     weight = _weight_for(matrices, float(arb(bound)))
     K = _regulator(matrices, weight)[1]
     lower = _dual_bound(matrices, weight, bound)
@@ -189,7 +189,7 @@ def single(data: Any) -> dict[str, Any]:
 def _least_effort(data: Any, g: fmpq) -> arb:
     """Ball around the least effort that (8) as printed certifies for any gain at level g [s^-1/2], proven."""
     found = enclosure.enclose(problems.least_effort(data, g))
-    unit = 1000 * plant.scale_factors("orbit")["ws"]
+    unit = 1 / data["z_weight"] * plant.scale_factors(data, "orbit")["ws"]
     with precision(plant.BITS):
         return (arb(found.lower) * unit).sqrt().union((arb(found.upper) * unit).sqrt())
 
@@ -200,7 +200,8 @@ def _printed_design(data: Any, problem: Problem) -> dict[str, Any]:
     out: dict[str, Any] = {"outcome": answer.outcome, "words": answer.words, "certified": None}
     if not answer.has_point or answer.value is None:
         return out
-    out["certified"] = float(np.sqrt(1000 * float(arb(plant.scale_factors("ext")["h"])) * answer.value))
+    h8 = float(arb(plant.scale_factors(data, "ext")["h8"]))
+    out["certified"] = float(np.sqrt(h8 * answer.value))
     return out | performance(data, problems.gain_of(answer.point), "ext")
 
 
@@ -211,7 +212,7 @@ def dilated(data: Any) -> dict[str, Any]:
 
 
 def _best_dilated(data: Any, g: fmpq, effort: fmpq) -> dict[str, Any]:
-    bound, h = scaled_effort(data, effort, "ext"), float(arb(plant.scale_factors("ext")["h"]))
+    bound, h = scaled_effort(data, effort, "ext"), float(arb(plant.scale_factors(data, "ext")["h"]))
     table: dict[str, dict[str, float | None]] = {}
     for e1 in E1:
         answers = {e2: problems.dilated(data, g, bound, decimal(e1), decimal(e2)).solve() for e2 in E2}
@@ -225,7 +226,7 @@ def _best_dilated(data: Any, g: fmpq, effort: fmpq) -> dict[str, Any]:
 
 def nonfragile(data: Any) -> dict[str, Any]:
     """Designs that tolerate Delta K for every abs(F) <= 1, over the effort; least effort with a certificate."""
-    ws = float(arb(plant.scale_factors("nonfragile")["ws"]))
+    ws = float(arb(plant.scale_factors(data, "nonfragile")["ws"]))
     least = {}
     for problem in (problems.nonfragile(data, None), problems.nonfragile_dual(data)):
         for solver in ("CLARABEL", "CVXOPT", "SDPA"):

@@ -45,10 +45,9 @@ def _problems(data: Any) -> dict[str, Callable[[str], Problem]]:
     }
 
 
-def unit_of(name: str, units: str) -> Any:
+def unit_of(data: Any, name: str, units: str) -> Any:
     """Factor from the optimal value of a problem to SI units."""
     if units == "SI":
         return 1
     gain = "trad" if name.endswith("-trad") else "ext"
-    factor = plant.scale_factors(gain)["h"]
-    return 1000 * factor if name.startswith("rho_trad") else factor
+    return plant.scale_factors(data, gain)["h8" if name.startswith("rho_trad") else "h"]

@@ -13,7 +13,7 @@ from recontrol.exact.rational import decimal, diagonal, from_float, identity, ze
 from .. import oracle, plant, problems
 
 LEVELS = ("1.0001", "1.001", "1.01", "1.1", "2", "10", "100", "1000")
-"""g = gamma_inf / 1e-3."""
+"""g = gamma_inf / z_weight."""
 
 SOLVED_LEVELS = ("1.001", "1.01", "1.1", "2", "10", "100")
 """Where the semidefinite program is solved too; nearer to the limit and far above it, solvers lose digits."""
@@ -28,10 +28,10 @@ def fixed_gain(data: Any) -> dict[str, Any]:
 def _fixed(data: Any, gain: str) -> dict[str, Any]:
     scaled, K = plant.scaled(data, plant.orbital_rate(data), gain), plant.scaled_gain(data, gain)
     with precision(plant.BITS):
-        h2 = oracle.h2_squared(scaled, K) * plant.scale_factors(gain)["h"]
+        h2 = oracle.h2_squared(scaled, K) * plant.scale_factors(data, gain)["h"]
     out: dict[str, Any] = {"h2_squared": h2, "levels": np.array([float(g) for g in LEVELS])}
     for kind in oracle.KINDS:
-        unit = oracle.unit_of(kind, gain)
+        unit = oracle.unit_of(data, kind, gain)
         rho = [_ball(oracle.least_rho(scaled, K, kind, decimal(g)) * unit) for g in LEVELS]
         solved = {}
         for g in SOLVED_LEVELS:
@@ -83,9 +83,10 @@ def _member(data: Any, k: fmpq) -> dict[str, Any]:
     }
     K = V @ back * (1 / torque)
     h, level = frequency / torque**2, decimal(FAMILY_LEVEL)
+    h8 = h / data["z_weight"]
     with precision(plant.BITS):
         return {
-            "rho_prt": oracle.least_rho(scaled, K, "prt", level) * (1 / (1000 * h)),
-            "rho_trad": oracle.least_rho(scaled, K, "trad", level) * (1000 * h),
+            "rho_prt": oracle.least_rho(scaled, K, "prt", level) * (1 / h8),
+            "rho_trad": oracle.least_rho(scaled, K, "trad", level) * h8,
             "h2": (oracle.h2_squared(scaled, K) * h).sqrt(),
         }
