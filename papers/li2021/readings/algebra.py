@@ -17,7 +17,7 @@ from recontrol.systems.generic import inverse
 from .. import conditions as c
 from ..plant import controller, initial_state, loop, plant
 from ..problems import GAINS, SN, build, problem_data
-from .support import pivots, random_rational, random_symmetric, refuted
+from .support import drift_limit, pivots, random_rational, random_symmetric, refuted
 
 Array = np.ndarray
 HALF = fmpq(1, 2)
@@ -162,8 +162,14 @@ def thm1_P_definite() -> Identity:
 
 
 def thm1_equiv(certificates: Any) -> Result:
-    """At 2 % drift (13) with diagonal multipliers has a point, so (16) holds for all F; with two scalars none."""
-    return refuted(certificates, "drift-diag-below", "drift-one-above", evidence={"delta_m": "0.02"})
+    """Between two drift bounds (13) with diagonal multipliers has a point, so (16) holds for all F; with two scalars
+    none.
+    """
+    limits = {
+        "(13), diagonal multipliers: a point up to delta_m": drift_limit(certificates, "drift-diag-below"),
+        "(13), two scalars: none from delta_m": drift_limit(certificates, "drift-one-above"),
+    }
+    return refuted(certificates, "drift-diag-below", "drift-one-above", evidence=limits)
 
 
 def _mixed(data: Any, corner: tuple[slice, slice]) -> Array:

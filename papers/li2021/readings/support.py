@@ -29,6 +29,12 @@ def refuted(certificates: Mapping[str, Any], *names: str, evidence: Mapping[str,
     return proofs.refuted(certificates, *names, evidence={**says, **(evidence or {})})
 
 
+def drift_limit(certificates: Mapping[str, Any], name: str) -> str:
+    """delta_m of the case of a certificate about (13) at a drift bound, as its case writes it."""
+    _, *changes = certificates[name]["case"].split(";")
+    return dict(change.split("=") for change in changes)["delta_m"]
+
+
 def pivots(M: np.ndarray, name: str) -> dict[str, Any]:
     """Pivots of L D L' of a symmetric matrix: all positive if and only if it is positive definite."""
     from recontrol.exact.linalg import ldl
