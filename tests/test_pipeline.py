@@ -281,3 +281,14 @@ def test_campaign_resumes_and_contains_the_small_ensemble(toy):
     assert (small["count"], large["count"]) == (1000, 3000)
     assert large["minimum"] <= small["minimum"]
     assert large["minimum"] >= large["bound"]
+
+
+def test_a_function_of_the_package_comes_before_one_of_its_topics(tmp_path):
+    """Topics may have a function of the same name, which the package calls."""
+    folder = tmp_path / "papers" / "p2024" / "quantities"
+    folder.mkdir(parents=True)
+    (folder / "__init__.py").write_text("from . import design\n\n\ndef quantities():\n    return design.quantities()\n")
+    (folder / "design.py").write_text("def quantities():\n    return {}\n\n\ndef table():\n    return 1\n")
+    assert closure.home_of("p2024", "quantities", "quantities", tmp_path) == "papers.p2024.quantities"
+    assert closure.home_of("p2024", "quantities", "table", tmp_path) == "papers.p2024.quantities.design"
+    assert closure.home_of("p2024", "quantities", "missing", tmp_path) == "papers.p2024.quantities"

@@ -64,12 +64,12 @@ def _stage_modules(paper: str, name: str, base: Path) -> list[str]:
 
 
 def home_of(paper: str, name: str, function: str, root: Path | str = ".") -> str:
-    """The module that defines a function: papers.<paper>.<name>, or the topic of that package where it stands."""
-    package = f"papers.{paper}.{name}"
+    """The module that defines a function: papers.<paper>.<name>, else the topic of that package where it stands."""
+    package, folder = f"papers.{paper}.{name}", Path(root, "papers", paper, name)
     start = re.compile(rf"^def {re.escape(function.replace('-', '_'))}\(", re.MULTILINE)
-    for path in sorted(Path(root, "papers", paper, name).glob("[!_]*.py")):
-        if start.search(path.read_text(encoding="utf-8")):
-            return f"{package}.{path.stem}"
+    for path in (folder / "__init__.py", *sorted(folder.glob("[!_]*.py"))):
+        if path.is_file() and start.search(path.read_text(encoding="utf-8")):
+            return package if path.stem == "__init__" else f"{package}.{path.stem}"
     return package
 
 
