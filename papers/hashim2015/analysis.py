@@ -16,7 +16,7 @@ from recontrol.exact.ball import precision
 from recontrol.exact.polynomial import PRECISION
 
 from . import recipe
-from .readings.support import first_state, full_loop, printed_reduced, reduced_loop
+from .loops import first_state, full_loop, printed_reduced, reduced_loop
 
 SIGNS = (1, -1)
 

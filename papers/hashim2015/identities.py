@@ -5,9 +5,9 @@ from __future__ import annotations
 import numpy as np
 from flint import Ordering, fmpq, fmpq_mpoly_ctx
 
-from .readings.support import full_loop, reduced_loop
-from .readings.symbols import lifted, symbolic_charpoly
+from .loops import full_loop, reduced_loop
 from .recipe import Plant, reduced_matrices
+from .symbols import lifted, symbolic_charpoly
 
 
 def _symbols(names: list[str]) -> dict[str, np.ndarray]:

@@ -10,8 +10,8 @@ from flint import Ordering, fmpq, fmpq_mpoly, fmpq_mpoly_ctx
 from recontrol.exact.polynomial import is_hurwitz, kharitonov_corners
 
 from . import recipe
-from .readings.support import first_state, printed_reduced, reduced_loop
-from .readings.symbols import lifted, symbolic_charpoly
+from .loops import first_state, printed_reduced, reduced_loop
+from .symbols import lifted, symbolic_charpoly
 
 
 def coefficient_polynomials(model: Any, data: Any) -> list[fmpq_mpoly]:

@@ -10,8 +10,8 @@ from recontrol.exact.rational import identity, zeros
 from recontrol.lmi import loops
 
 from . import analysis, recipe
+from .loops import first_state, printed_gain_box, printed_reduced, reduced_loop
 from .model import AXES, model, plants
-from .readings.support import first_state, printed_gain_box, printed_reduced, reduced_loop
 from .synthesis.gains import gains
 
 CONTROLLER_BOX = "box of (52)"

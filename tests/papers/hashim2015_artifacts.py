@@ -6,7 +6,8 @@ import functools
 import inspect
 from typing import Any
 
-from papers.hashim2015 import experiments, model, simulation
+from papers.hashim2015 import model, simulation
+from papers.hashim2015.quantities import experiments
 from papers.hashim2015.synthesis import gains
 from recontrol import paper
 from tests.conftest import ROOT

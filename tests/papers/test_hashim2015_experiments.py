@@ -6,13 +6,13 @@ import math
 import numpy as np
 import pytest
 
-from papers.hashim2015 import experiments
+from papers.hashim2015.quantities import experiments
 from papers.hashim2015.simulation import designs
 from papers.hashim2015.simulation.limits import INPUT_WEIGHTS, SHAPING
 from papers.hashim2015.simulation.published import nearest
 from papers.hashim2015.simulation.recovery import observer
 from papers.hashim2015.simulation.regulator import HORIZON, SAMPLES, initial_states, loop_start, settle
-from papers.hashim2015.simulation.steps import LIKE_FOR_LIKE, percent
+from papers.hashim2015.simulation.steps import percent
 from papers.hashim2015.simulation.sweep import lqr_loop
 from recontrol import paper
 from recontrol.simulate import linear, ode
@@ -82,14 +82,16 @@ def test_settling_on_a_grid_hundred_times_finer(artifacts, axis, name):
 def test_no_like_for_like_pair_shows_the_pattern_in_the_two_percent_band(artifacts):
     pairs = artifacts["steps"]["values"]["pairs"]["2"]["pairs"]
     assert len(pairs) == 45
-    assert not any(pairs[f"{full} | {reduced}"]["pattern"] for full, reduced in LIKE_FOR_LIKE)
+    assert not any(pairs[f"{full} | {reduced}"]["pattern"] for full, reduced in designs.LIKE_FOR_LIKE.values())
 
 
 def test_only_the_statement_on_roll_survives_every_band(artifacts):
     values = artifacts["steps"]["values"]
     assert {axis for axis, row in values["like_for_like"].items() if row["robust"]} == {"roll"}
     for band, name in (("1", "full-C | x1-C"), ("5", "full-C | corrected-C")):
-        shown = [p for p in values["pairs"][band]["pattern_pairs"] if tuple(p.split(" | ")) in LIKE_FOR_LIKE]
+        shown = [
+            p for p in values["pairs"][band]["pattern_pairs"] if tuple(p.split(" | ")) in designs.LIKE_FOR_LIKE.values()
+        ]
         assert shown == [name]
 
 
@@ -214,7 +216,7 @@ def test_nearest_matches_by_the_least_sum():
 
 
 def test_quantities_are_those_of_the_paper_file(artifacts):
-    found = experiments.experiment_quantities(artifacts)
+    found = experiments.quantities(artifacts)
     known = paper.load(ROOT / "papers/hashim2015").file.quantities
     assert set(found) <= set(known)
     assert all(table for table in found.values())

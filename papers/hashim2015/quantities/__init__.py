@@ -4,8 +4,7 @@ from __future__ import annotations
 
 from typing import Any
 
-from ..experiments import experiment_quantities
-from . import design, loops, structure
+from . import design, experiments, loops, structure
 
 
 def quantities(data: Any, model: Any, synthesis: Any, simulation: Any) -> dict[str, Any]:
@@ -14,5 +13,5 @@ def quantities(data: Any, model: Any, synthesis: Any, simulation: Any) -> dict[s
         **design.quantities(data, model, synthesis),
         **loops.quantities(data, model, synthesis),
         **structure.quantities(data, model),
-        **experiment_quantities(simulation),
+        **experiments.quantities(simulation),
     }

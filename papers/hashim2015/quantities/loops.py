@@ -15,11 +15,12 @@ from recontrol.exact.spectrum import companion, eigenvalues, is_stable, spectral
 from .. import analysis, recipe
 from ..identities import ace_null_vector_holds, pitch_error_pole_is_zero
 from ..intervals import kharitonov_fraction
+from ..loops import first_state, printed_reduced, reduced_loop
 from ..model import AXES
 from ..readings.formulas import krylov
 from ..readings.gains import inverse_lqr, speed_ratios
 from ..readings.reduced import estimator_gain_sets, gain_box, intersect
-from ..readings.support import coefficient_margins, first_state, printed_reduced, reduced_loop
+from ..readings.support import coefficient_margins
 
 
 def families(data: Any, model: Any, synthesis: Any) -> dict[str, dict[str, np.ndarray]]:

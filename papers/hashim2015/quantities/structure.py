@@ -12,9 +12,9 @@ from recontrol.exact.linalg import determinant
 from recontrol.exact.polynomial import PRECISION, real_roots, roots
 
 from .. import recipe
+from ..loops import first_state
 from ..model import AXES
 from ..readings.formulas import krylov
-from ..readings.support import first_state
 
 
 def observability(plant: recipe.Plant) -> dict[str, np.ndarray]:

@@ -12,20 +12,12 @@ import numpy as np
 
 from recontrol.claims.values import Approx, Result, Statement
 
+from ..simulation.designs import AXES, LIKE_FOR_LIKE, PATTERN, TIE
+
 TIME_ERROR = 1e-5
 OVERSHOOT_ERROR = 1e-4
 MEDIAN_ERROR = 0.04
-TIE = 1e-6
 NEVER = 1e6
-LIKE_FOR_LIKE = (
-    ("S", "full-S", "corrected-S"),
-    ("B", "full-B", "corrected-B"),
-    ("B, x1 measured", "full-B", "x1-B"),
-    ("C", "full-C", "corrected-C"),
-    ("C, x1 measured", "full-C", "x1-C"),
-)
-AXES = ("yaw", "pitch-tf", "roll")
-SHOULD_BE_FASTER = {"yaw": 1, "pitch-tf": -1, "roll": 1}
 
 
 def seconds(value: Any) -> float:
@@ -46,8 +38,9 @@ def s22_best(simulation: Any, case: str) -> Result:
 def _pattern_margin(table: Any, full: str, reduced: str) -> Approx:
     """Smallest of the three differences that the pattern wants positive, less the tie."""
     differences = [
-        sign * (seconds(table[axis][full]["settling"]["2"]) - seconds(table[axis][reduced]["settling"]["2"]))
-        for axis, sign in SHOULD_BE_FASTER.items()
+        (1 if word == "faster" else -1)
+        * (seconds(table[axis][full]["settling"]["2"]) - seconds(table[axis][reduced]["settling"]["2"]))
+        for axis, word in PATTERN.items()
     ]
     return Approx(min(differences) - TIE, TIE / 2)
 
@@ -57,7 +50,7 @@ def s3_pattern(simulation: Any) -> Result:
     values = simulation["steps"]["values"]
     margins = {
         f"{name}: worst axis [s]": _pattern_margin(values["metrics"], full, reduced)
-        for name, full, reduced in LIKE_FOR_LIKE
+        for name, (full, reduced) in LIKE_FOR_LIKE.items()
     }
     evidence = {
         f"{band} % band": {"pairs with the pattern": found["pattern_count"], "outcomes": found["counts"]}
@@ -65,7 +58,7 @@ def s3_pattern(simulation: Any) -> Result:
     }
     outcomes = {
         name: {axis: values["pairs"]["2"]["pairs"][f"{full} | {reduced}"][axis] for axis in AXES}
-        for name, full, reduced in LIKE_FOR_LIKE
+        for name, (full, reduced) in LIKE_FOR_LIKE.items()
     }
     return Result(Statement.any_of(margins), evidence={**evidence, "like for like, 2 %": outcomes})
 

@@ -12,7 +12,7 @@ import numpy as np
 
 from recontrol.claims.values import Identity
 
-from .symbols import stack, symbolic_charpoly, symbols
+from ..symbols import stack, symbolic_charpoly, symbols
 
 ORDER = 4
 

@@ -12,8 +12,9 @@ from recontrol.exact.ball import exact_midpoint, precision, to_ball
 from recontrol.exact.polynomial import PRECISION, charpoly, left_roots, reflect, roots
 from recontrol.exact.rational import rounded
 
+from ..loops import printed_gain, printed_gain_box
 from ..recipe import CONTROL_WEIGHT, Plant, controller_gain, estimator_poles, lqr_spectrum, plant_of
-from .support import printed_gain, printed_gain_box, routh_margins, used
+from .support import routh_margins, used
 
 DECAY = fmpq(1, 10)
 

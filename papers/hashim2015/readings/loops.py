@@ -9,9 +9,11 @@ import numpy as np
 from recontrol.claims.values import Result, Size, Statement
 from recontrol.exact.ball import precision
 from recontrol.exact.polynomial import PRECISION, charpoly
+from recontrol.exact.rational import zeros
 
+from ..loops import full_loop, printed_gain, printed_gain_box
 from ..recipe import Plant, plant_of
-from .support import UNUSED, full_loop, printed_gain, printed_gain_box, routh_margins, used, zeros
+from .support import UNUSED, routh_margins, used
 
 HALF = 4
 CURVES = "no printed number comes from (55); curves that did would have the gain fed back twice"

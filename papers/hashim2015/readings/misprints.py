@@ -16,6 +16,7 @@ from recontrol.exact.polynomial import charpoly
 from recontrol.exact.rational import identity, matrix
 
 from ..recipe import Plant, Reduced, reduced_matrices
+from ..symbols import equal, shape, stack, symbols
 from .formulas import (
     compensator_rate,
     control,
@@ -27,7 +28,6 @@ from .formulas import (
     reduced_state,
     state,
 )
-from .symbols import equal, shape, stack, symbols
 
 ORDER = 4
 PITCH_ORDER = 2

@@ -12,9 +12,10 @@ from recontrol.exact.ball import precision, to_ball
 from recontrol.exact.linalg import determinant
 from recontrol.exact.polynomial import PRECISION, real_roots
 
+from ..loops import first_state
 from ..recipe import Plant, plant_of
 from .formulas import krylov
-from .support import UNUSED, descending, first_state, used
+from .support import UNUSED, descending, used
 
 FREQUENCIES = (10, 100)
 

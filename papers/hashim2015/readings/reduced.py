@@ -13,17 +13,9 @@ from recontrol.exact.polynomial import PRECISION, charpoly, kharitonov_corners
 from recontrol.exact.rational import rounded
 
 from ..intervals import coefficient_polynomials, coefficient_range
+from ..loops import first_state, printed_gain, printed_gain_box, printed_reduced, reduced_loop
 from ..recipe import partition, plant_of, reduced_matrices
-from .support import (
-    coefficient_margins,
-    first_state,
-    printed_gain,
-    printed_gain_box,
-    printed_reduced,
-    reduced_loop,
-    routh_margins,
-    used,
-)
+from .support import coefficient_margins, routh_margins, used
 
 
 def _block(model: Any, index: int) -> np.ndarray:

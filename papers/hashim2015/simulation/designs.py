@@ -31,6 +31,19 @@ REDUCED = (
     "corrected-C",
     "corrected-D",
 )
+LIKE_FOR_LIKE = {
+    "S": ("full-S", "corrected-S"),
+    "B": ("full-B", "corrected-B"),
+    "B, x1 measured": ("full-B", "x1-B"),
+    "C": ("full-C", "corrected-C"),
+    "C, x1 measured": ("full-C", "x1-C"),
+}
+"""Full-order and reduced-order readings in which the reference enters at the same place."""
+
+PATTERN = {"yaw": "faster", "pitch-tf": "slower", "roll": "faster"}
+"""What section 3 says of the reduced order on each axis, by settling time."""
+
+TIE = 1e-6  # s: two settling times closer than this count as equal
 
 
 class Loop(NamedTuple):

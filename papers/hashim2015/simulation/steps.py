@@ -17,14 +17,6 @@ from . import designs
 
 SAMPLES = 8001
 HORIZON_IN_TIME_CONSTANTS = 16
-TIE = 1e-6  # s: two settling times closer than this count as equal
-LIKE_FOR_LIKE = (
-    ("full-S", "corrected-S"),
-    ("full-B", "corrected-B"),
-    ("full-B", "x1-B"),
-    ("full-C", "corrected-C"),
-    ("full-C", "x1-C"),
-)
 SHOWN = {"yaw": 60.0, "pitch-tf": 20.0, "roll": 80.0}  # s, the time axes of the redrawn figures
 CURVES = ("full-S", "corrected-S", "full-B", "corrected-B", "x1-B", "full-C", "corrected-C", "x1-C")
 
@@ -59,12 +51,9 @@ def percent(band: float) -> str:
 def outcome(full: dict[str, Any], reduced: dict[str, Any], band: str) -> str:
     """Is the reduced order faster, slower or equal, by settling time?"""
     t_full, t_reduced = (float(str(m["settling"][band]).replace("infinite", "inf")) for m in (full, reduced))
-    if t_reduced < t_full - TIE:
+    if t_reduced < t_full - designs.TIE:
         return "faster"
-    return "slower" if t_reduced > t_full + TIE else "equal"
-
-
-PATTERN = {"yaw": "faster", "pitch-tf": "slower", "roll": "faster"}
+    return "slower" if t_reduced > t_full + designs.TIE else "equal"
 
 
 def compare_pairs(table: dict[str, dict[str, Any]]) -> dict[str, Any]:
@@ -75,7 +64,7 @@ def compare_pairs(table: dict[str, dict[str, Any]]) -> dict[str, Any]:
         for full in designs.FULL:
             for reduced in designs.REDUCED:
                 said = {a: outcome(table[a][f"full-{full}"], table[a][reduced], band) for a in designs.AXES}
-                pairs[f"full-{full} | {reduced}"] = {**said, "pattern": said == PATTERN}
+                pairs[f"full-{full} | {reduced}"] = {**said, "pattern": said == designs.PATTERN}
         counts = {
             axis: {word: sum(p[axis] == word for p in pairs.values()) for word in ("faster", "slower", "equal")}
             for axis in designs.AXES
@@ -95,7 +84,7 @@ def robust_outcomes(pairs: dict[str, Any]) -> dict[str, Any]:
         said = [
             table["pairs"][f"{full} | {reduced}"][axis]
             for table in pairs.values()
-            for full, reduced in LIKE_FOR_LIKE
+            for full, reduced in designs.LIKE_FOR_LIKE.values()
             if full != "full-S"
         ]
         counts = {word: said.count(word) for word in ("faster", "slower", "equal")}

@@ -12,7 +12,7 @@ from typing import Any
 Table = dict[str, dict[str, Any]]
 
 
-def experiment_quantities(simulation: Any) -> Table:
+def quantities(simulation: Any) -> Table:
     """All tables of this module; the names are those of paper.yaml."""
     values = {part: simulation[part]["values"] for part in PARTS}
     found: Table = {}
