@@ -78,6 +78,7 @@ def source(data: Any, case: str) -> dict[str, Any]:
         "left": diagonal([Scale.cost / u for u in data["u_max"][0]]),
         "right": diagonal([1 / s for s in Scale.state]),
     }
+    found |= print_boxes(data)
     for word in case.split(", "):
         if word in motions or word.startswith("n="):
             found |= model.plant(data, motions[word] if word in motions else rational.decimal(word[2:]))
@@ -86,6 +87,13 @@ def source(data: Any, case: str) -> dict[str, Any]:
         elif (F := observer(data, word)) is not None:
             found["F"] = F
     return found
+
+
+def print_boxes(data: Any) -> dict[str, Any]:
+    """Rounding boxes of the printed X, Y, K, by "box of V"; of W = K - K0, and of S = W (X - X0): abs(S) <= hK hX."""
+    found = {f"box of {v}": (data[v] - data.half(v), data[v] + data.half(v)) for v in "XYK"}
+    reach = data.half("K") @ data.half("X")
+    return found | {"box of W": (-data.half("K"), data.half("K")), "box of S": (-reach, reach)}
 
 
 def _margin_weight(X: np.ndarray, *, both: bool) -> np.ndarray:
@@ -159,12 +167,11 @@ def boxed(data: Any, problem: Problem, *, with_gain: bool) -> Problem:
 
     W = K - K0 and S = W (X - X0), which is only asked to lie in its box abs(S) <= hK hX: a superset of the truth.
     """
-    X, Y, hX, hY, hK = data["X"], data["Y"], data.half("X"), data.half("Y"), data.half("K")
-    boxes = {"X": (X - hX, X + hX), "Y": (Y - hY, Y + hY)}
+    given = print_boxes(data)
+    boxes = {v: given[f"box of {v}"] for v in "XY"}
     if not with_gain:
         return replace(problem, boxes=boxes)
-    reach = hK @ hX
-    boxes |= {"W": (-hK, hK), "S": (-reach, reach)}
+    boxes |= {v: given[f"box of {v}"] for v in "WS"}
     values, units = source(data, problem.case), Scale.units(data["u_max"])
     link = condition(conditions.product_gap)
     return replace(
@@ -179,6 +186,6 @@ def boxed(data: Any, problem: Problem, *, with_gain: bool) -> Problem:
 
 def linked(plain: Problem, data: Any) -> Problem:
     """The problem with X, Y and K in their rounding boxes and Y = K X exactly; for points, not for multipliers."""
-    boxes = {name: (data[name] - data.half(name), data[name] + data.half(name)) for name in "XYK"}
+    boxes = {v: print_boxes(data)[f"box of {v}"] for v in "XYK"}
     tie = condition(conditions.product)
     return replace(plain, variables={**plain.variables, "K": full(3, 6)}, conditions=[*plain.named, tie], boxes=boxes)

@@ -91,7 +91,7 @@ def _new(options: argparse.Namespace) -> int:
 def _verify(options: argparse.Namespace) -> int:
     from importlib import import_module
 
-    return int(import_module("recontrol.lmi.verify").main(options.arguments))
+    return int(import_module("recontrol.lmi.verify").main(options.arguments, options.root))
 
 
 def _cite(options: argparse.Namespace) -> int:

@@ -113,13 +113,12 @@ def eq14_violated(data: Any, gain: str) -> dict[str, Any]:
     """One vector v with v' he(FX) v > 0 for every X in the box: block (2, 2) of (14) is not negative definite."""
     F = problems.observer(data, gain)
     assert F is not None
-    half = data.half("X")
     target = Problem(
         "block (2,2) of (14)",
         {"X": symmetric(6)},
         [condition(conditions.error_block)],
         {"F": F},
-        boxes={"X": (data["X"] - half, data["X"] + half)},
+        boxes={"X": problems.print_boxes(data)["box of X"]},
         paper="wan2014",
         case=gain,
         source=problems.SOURCE,

@@ -12,7 +12,7 @@ from recontrol.lmi.problem import Problem
 from recontrol.lmi.variables import full, symmetric
 
 from .. import boxes, conditions
-from ..problems import boxed, rendezvous
+from ..problems import boxed, print_boxes, rendezvous
 from ..synthesis.readout import OBSERVERS
 
 
@@ -20,7 +20,7 @@ def K_member(data: Any, synthesis: Any) -> dict[str, Any]:
     """X, Y = K X and K in their boxes."""
     found = synthesis["joint"]["gain"]
     X, K = boxes.rounded_print(np.asarray(found["X"]), np.asarray(found["K"]))
-    limits = {name: (data[name] - data.half(name), data[name] + data.half(name)) for name in "XYK"}
+    limits = {v: print_boxes(data)[f"box of {v}"] for v in "XYK"}
     problem = Problem(
         "K = Y X^-1",
         {"X": symmetric(6), "Y": full(3, 6), "K": full(3, 6)},

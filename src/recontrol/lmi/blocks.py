@@ -41,6 +41,16 @@ def nonnegative(function: F) -> F:
     return _mark(function, ">=")
 
 
+def box_lemma(*unknowns: str) -> Callable[[F], F]:
+    """Mark a condition that speaks of a whole box, by multipliers ``unknowns`` that must be diagonal to prove it."""
+
+    def mark(function: F) -> F:
+        function.diagonal = unknowns  # type: ignore[attr-defined]
+        return function
+
+    return mark
+
+
 def nonpositive(function: F) -> F:
     """Mark ``function`` as the condition "its value is negative semidefinite" (<= 0)."""
     return _mark(function, "<=")

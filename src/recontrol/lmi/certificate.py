@@ -15,6 +15,9 @@ from recontrol.lmi.conditions import Condition
 from recontrol.lmi.problem import Problem
 from recontrol.lmi.variables import Variable
 
+LARGEST = 1000
+"""Rows or columns of a variable; a file that asks for more wants memory, not a check."""
+
 
 def entry(x: Any) -> Any:
     """ "p/q" of a rational, {"mid", "rad"} of a ball."""
@@ -45,8 +48,18 @@ def encode_variable(v: Variable) -> dict[str, Any]:
 
 
 def decode_variable(stored: Mapping[str, Any]) -> Variable:
-    """The variable of `encode_variable`."""
-    entries = tuple((int(i), int(j), int(k), int(s)) for i, j, k, s in stored["entries"])
+    """The variable of `encode_variable`. Raises CertificateError for one that makes no sense."""
+    entries = tuple((i, j, k, s) for i, j, k, s in stored["entries"])
+    if not all(type(number) is int and number >= 0 for e in entries for number in e[:3]):
+        raise verify.CertificateError("places and unknowns of a variable are whole numbers")
+    if {e[2] for e in entries} != set(range(len({e[2] for e in entries}))):
+        raise verify.CertificateError("the unknowns of a variable are not numbered from 0")
+    if (
+        len(stored["shape"]) not in (0, 2)
+        or max([0, *stored["shape"]]) > LARGEST
+        or any(e[3] not in (1, -1) for e in entries)
+    ):
+        raise verify.CertificateError("a variable with entries other than unknowns, or too large to be checked")
     return Variable(tuple(stored["shape"]), entries, max(e[2] for e in entries) + 1, bool(stored["symmetric"]))
 
 

@@ -14,7 +14,7 @@ import numpy as np
 from flint import fmpq
 
 from recontrol.exact import ball, rational
-from recontrol.lmi.blocks import block, he, negative, positive
+from recontrol.lmi.blocks import block, box_lemma, he, negative, positive
 from recontrol.lmi.conditions import Condition, condition
 from recontrol.lmi.problem import Problem
 from recontrol.lmi.proof import NotProvenError, prove_feasible
@@ -66,6 +66,7 @@ def somewhere_positive(P: Any, v: Any) -> Any:
     return v.T @ P @ v
 
 
+@box_lemma("T")
 @positive
 def box_definite(T: Any, M0: Any, E: Any, F: Any) -> Any:
     """[M0 - F'T F, -E; -E', T] > 0: M0 + he(E D F) > 0 for every diagonal D with entries in [-1, 1].
@@ -75,6 +76,7 @@ def box_definite(T: Any, M0: Any, E: Any, F: Any) -> Any:
     return block([[M0 - F.T @ T @ F, -E], [T]])
 
 
+@box_lemma("T")
 @positive
 def box_hurwitz(P: Any, T: Any, M: Any, E: Any, F: Any) -> Any:
     """[-(M'P + P M) - F'T F, -P E; -E'P, T] > 0: M + E D F is Hurwitz for every D of the box, with this one P > 0."""

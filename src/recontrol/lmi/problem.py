@@ -112,8 +112,18 @@ class Problem:
         unknown = [n for names in (self.units, self.boxes) for n in names if n not in self.variables]
         if unknown:
             raise ProblemError(f"{self.name}: units or boxes for {', '.join(unknown)}, which are no variables")
+        for c in named:
+            for argument in getattr(c.function, "diagonal", ()):
+                if not self._is_diagonal(c.rename.get(argument, argument)):
+                    raise ProblemError(f"{self.name}: {c.name} proves nothing unless {argument} is diagonal")
         for name, value in self.data.items():
             ball.assert_rigorous(value, f"{self.name}, datum {name}")
+
+    def _is_diagonal(self, name: str) -> bool:
+        if name in self.variables:
+            return all(i == j for i, j, _, _ in self.variables[name].entries)
+        entries = np.atleast_2d(np.asarray(self.data.get(name), dtype=object))
+        return all(i == j or entry == 0 for (i, j), entry in np.ndenumerate(entries))
 
     # -- the problem in exact form ---------------------------------------------------------------------------------
 

@@ -2,6 +2,9 @@
 
 The data come from the certificate's ``source``, a function of (data, case) in the paper's folder, called with
 paper.yaml. A datum that the source does not give (a gain that was found, a bound of an exponential) is named.
+
+The box of a variable V is "box of V" of the source, a pair (low, high); where the source gives none and paper.yaml
+prints a V, it is the rounding box of the print. Any other box is named too.
 """
 
 from __future__ import annotations
@@ -29,17 +32,28 @@ def origin(stored: Mapping[str, Any], root: Path) -> Verified:
     try:
         with _importable(root), ball.precision(int(stored["precision"])):
             problem = rebuild(stored)
-            free, wrong = _compare_data(stored, problem, root)
+            free, wrong = _compare_given(stored, problem, root)
             if wrong:
                 return Verified(False, "exact", wrong)
             compare = _compare_point if stored["proof"] == "point" else _compare_forms
             wrong = compare(stored, problem) or _compare_objective(stored, problem)
-    except (CertificateError, ImportError, AttributeError, ValueError, KeyError, TypeError) as error:
+    except Exception as error:  # the paper's own code runs on what the file says, so anything may be raised
         return Verified(False, "exact", f"cannot be rebuilt from the paper: {type(error).__name__}: {error}")
     if wrong:
         return Verified(False, "exact", f"{wrong} is not what the paper's condition gives")
     without = f"; data that the paper does not give: {', '.join(free)}" if free else ""
-    return Verified(True, "exact", f"rebuilt from papers/{stored['paper']}{without}")
+    case = f", case {stored['case']!r}" if stored["case"] else ""
+    return Verified(True, "exact", f"rebuilt from papers/{stored['paper']}{case}: {_stated(problem)}{without}")
+
+
+def _stated(problem: Problem) -> str:
+    """The conditions by the names of their functions and what their arguments are bound to."""
+    words = []
+    for c in problem.named:
+        renamed = {argument: name for argument, name in c.arguments().items() if argument != name}
+        bound = ", ".join(f"{argument}={value}" for argument, value in {**renamed, **c.given}.items())
+        words.append(f"{c.function.__name__}({bound})" if bound else c.function.__name__)
+    return ", ".join(words)
 
 
 @contextmanager
@@ -52,18 +66,20 @@ def _importable(root: Path) -> Iterator[None]:
         sys.path.remove(place)
 
 
-def locate(path: str) -> Callable[..., Any]:
-    """The function at "module:name"; raises CertificateError for places outside papers and recontrol.lmi."""
+def locate(path: str, paper: str) -> Callable[..., Any]:
+    """The function at "module:name"; raises CertificateError for places outside papers/``paper`` and recontrol.lmi."""
     module, _, name = path.partition(":")
-    if not module.startswith(("papers.", "recontrol.lmi.")) or not name.isidentifier():
-        raise CertificateError(f"{path!r} is no function of a paper or of recontrol.lmi")
+    if not f"{module}.".startswith((f"papers.{paper}.", "recontrol.lmi.")) or not name.isidentifier():
+        raise CertificateError(f"{path!r} is no function of papers/{paper} or of recontrol.lmi")
     return getattr(importlib.import_module(module), name)
 
 
 def rebuild(stored: Mapping[str, Any]) -> Problem:
     """The problem of a certificate, its functions imported by name, its data from the file."""
+    paper = stored["paper"]
     conditions = [
-        Condition(locate(c["function"]), c["name"], c["sense"], c["rename"], c["given"]) for c in stored["conditions"]
+        Condition(locate(c["function"], paper), c["name"], c["sense"], c["rename"], c["given"])
+        for c in stored["conditions"]
     ]
     for c in conditions:
         if (marked := getattr(c.function, "sense", c.sense)) != c.sense:
@@ -71,10 +87,10 @@ def rebuild(stored: Mapping[str, Any]) -> Problem:
     costs = stored.get("objective", {})
     objective = None
     if "function" in costs:
-        objective = Objective(locate(costs["function"]), stored["sense"], costs["rename"])
+        objective = Objective(locate(costs["function"], paper), stored["sense"], costs["rename"])
     return Problem(
         stored["problem"],
-        {name: write.decode_variable(stored["variables"][name]) for name in stored.get("order", stored["variables"])},
+        {name: write.decode_variable(stored["variables"][name]) for name in verify.order(stored)},
         conditions,
         {name: write.decode(value) for name, value in stored["data"].items()},
         objective,
@@ -85,18 +101,25 @@ def rebuild(stored: Mapping[str, Any]) -> Problem:
     )
 
 
-def _compare_data(stored: Mapping[str, Any], problem: Problem, root: Path) -> tuple[list[str], str]:
-    """Names that the source does not give, and a description of the first datum that differs."""
-    if not stored["source"]:
-        return sorted(problem.data), ""
+def _compare_given(stored: Mapping[str, Any], problem: Problem, root: Path) -> tuple[list[str], str]:
+    """Names of data and boxes that the paper does not give, and a description of the first that differs."""
     from recontrol.paper import load
 
     data = load(root / "papers" / stored["paper"]).data
-    expected = locate(stored["source"])(data, stored["case"])
+    source = stored["source"]
+    expected = dict(locate(source, stored["paper"])(data, stored["case"])) if source else {}
     for name, value in problem.data.items():
         if name in expected and not _same(value, expected[name]):
             return [], f"datum {name} differs from paper.yaml (case {stored['case']!r})"
-    return sorted(set(problem.data) - set(expected)), ""
+    free = sorted(set(problem.data) - set(expected))
+    for name, ends in problem.boxes.items():
+        if f"box of {name}" not in expected and name in data:
+            expected[f"box of {name}"] = (data[name] - data.half(name), data[name] + data.half(name))
+        if f"box of {name}" not in expected:
+            free.append(f"box of {name}")
+        elif not all(map(_same, ends, expected[f"box of {name}"])):
+            return [], f"the box of {name} differs from paper.yaml (case {stored['case']!r})"
+    return free, ""
 
 
 def _same(stored: Any, fresh: Any) -> bool:
@@ -114,6 +137,12 @@ def _covers(x: Any, y: Any) -> bool:
 
 def _compare_point(stored: Mapping[str, Any], problem: Problem) -> str:
     point = {name: _unwrapped(write.decode(value), problem, name) for name, value in stored["witness"]["point"].items()}
+    if stored["statement"] == "box" and not any(hasattr(c.function, "diagonal") for c in problem.named):
+        return "a statement about a box"
+    if set(point) != set(problem.variables):  # a datum among them would take the place of the paper's
+        return "the list of variables"
+    for name, v in problem.variables.items():
+        v.exact_vector(point[name])
     values = {**problem.data, **point}
     if [item["name"] for item in stored["matrices"]] != [c.name for c in problem.named]:
         return "the list of conditions"
@@ -170,5 +199,5 @@ def _compare_objective(stored: Mapping[str, Any], problem: Problem) -> str:
         return ""
     constant, costs = problem.costs
     same = verify.number(stored["objective"]["constant"]) == constant
-    found = {int(i): verify.number(c) for i, c in stored["objective"]["coefficients"].items()}
+    found = {i: verify.number(c) for i, c in verify.terms(stored["objective"]["coefficients"]).items()}
     return "" if same and found == costs else "the objective"

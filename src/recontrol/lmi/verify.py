@@ -12,6 +12,7 @@ from __future__ import annotations
 
 import hashlib
 import json
+import re
 import sys
 from collections.abc import Mapping
 from dataclasses import dataclass
@@ -23,6 +24,12 @@ from flint import arb, ctx, fmpq, fmpz
 SCHEMA = "recontrol/certificate/1"
 POINT = ("definite", "membership", "box")
 MULTIPLIERS = ("infeasible", "exclusion")
+BOXED = ("membership", "exclusion")
+"""Statements about boxes; every other one but "bound" is about all values, and has none."""
+SENSES = (">", ">=", "=")
+KEY = re.compile(r"[A-Za-z][A-Za-z0-9_-]*")
+"""Key of a paper: the name of its folder, never a path."""
+UNREADABLE = (KeyError, TypeError, ValueError, IndexError, AttributeError, OverflowError, RecursionError)
 
 
 class CertificateError(ValueError):
@@ -52,8 +59,10 @@ def number(entry: Any) -> Any:
             p, _, q = entry.partition("/")
             return fmpq(fmpz(p), fmpz(q or "1"))  # int() refuses numbers of many digits
         mid, rad = (_dyadic(number(entry[key])) for key in ("mid", "rad"))
+        if rad < 0:
+            raise ValueError("negative radius")
         return arb(mid, rad)
-    except (ValueError, TypeError, KeyError, ZeroDivisionError) as error:
+    except (*UNREADABLE, ZeroDivisionError) as error:
         raise CertificateError(f"expected 'p/q' or a ball, found {entry!r}") from error
 
 
@@ -65,8 +74,22 @@ def _dyadic(q: fmpq) -> arb:
 
 
 def dense(rows: Any) -> list[list[Any]]:
-    """Matrix of a nested list of entries."""
+    """Matrix of a nested list of entries. Raises CertificateError for rows of different lengths."""
+    if (
+        not isinstance(rows, list)
+        or not rows
+        or not all(isinstance(row, list) and len(row) == len(rows[0]) for row in rows)
+    ):
+        raise CertificateError(f"expected the rows of a matrix, found {str(rows)[:60]}")
     return [[number(x) for x in row] for row in rows]
+
+
+def terms(coefficients: Mapping[str, Any]) -> dict[int, Any]:
+    """Coefficients by unknown. Raises CertificateError for a key that is no plain index: "00" would hide behind "0"."""
+    for key in coefficients:
+        if not re.fullmatch("0|[1-9][0-9]*", key):
+            raise CertificateError(f"{key!r} is not the number of an unknown")
+    return {int(key): value for key, value in coefficients.items()}
 
 
 def check(certificate: Mapping[str, Any], root: Path | str | None = None) -> Verified:
@@ -83,12 +106,14 @@ def check(certificate: Mapping[str, Any], root: Path | str | None = None) -> Ver
         if not alone.holds:
             return alone
         return _with_origin(certificate, alone, Path.cwd() if root is None else Path(root))
-    except (CertificateError, KeyError, TypeError, ValueError, IndexError) as error:
+    except UNREADABLE as error:
         return Verified(False, "exact", f"the certificate cannot be read: {type(error).__name__}: {error}")
 
 
 def _with_origin(certificate: Mapping[str, Any], alone: Verified, root: Path) -> Verified:
     paper = certificate["paper"]
+    if paper and not KEY.fullmatch(paper):
+        return Verified(False, "exact", f"{paper!r} is not the key of a paper")
     if not paper or not (root / "papers" / paper / "paper.yaml").is_file():
         return Verified(True, alone.strength, f"{alone.why}; arithmetic alone, no paper folder to rebuild it from")
     from recontrol.lmi.rebuild import origin
@@ -108,6 +133,10 @@ def arithmetic(certificate: Mapping[str, Any]) -> Verified:
             return Verified(False, "exact", f"unknown statement {statement!r} with proof {side!r}")
         if statement != "bound" and side != ("point" if statement in POINT else "multipliers"):
             return Verified(False, "exact", f"a statement {statement!r} is not proven by {side}")
+        if statement != "bound" and (statement in BOXED) != bool(certificate["boxes"]):
+            return Verified(
+                False, "exact", f"a statement {statement!r} {'needs' if statement in BOXED else 'has no'} boxes"
+            )
         return _point(certificate) if side == "point" else _multipliers(certificate)
     finally:
         ctx.prec = before
@@ -121,6 +150,7 @@ def _point(certificate: Mapping[str, Any]) -> Verified:
     if not certificate["matrices"]:
         return Verified(False, "exact", "no condition was checked")
     for item in certificate["matrices"]:
+        _check_sense(item)
         M = dense(item["matrix"])
         balls = balls or _has_balls(M)
         if item["sense"] == "=":
@@ -135,8 +165,14 @@ def _point(certificate: Mapping[str, Any]) -> Verified:
     if certificate["statement"] != "bound":
         return Verified(True, strength, count)
     costs, x = certificate["objective"], [number(v) for v in certificate["witness"]["unknowns"]]
-    value = number(costs["constant"]) + sum((number(c) * x[int(i)] for i, c in costs["coefficients"].items()), fmpq(0))
+    parts = (number(c) * x[i] for i, c in terms(costs["coefficients"]).items())
+    value = sum(parts, number(costs["constant"]))
     return _compared(value, certificate, strength, count, from_point=True)
+
+
+def _check_sense(item: Mapping[str, Any]) -> None:
+    if item["sense"] not in SENSES:
+        raise CertificateError(f"{item['name']}: unknown sense {item['sense']!r}")
 
 
 def _outside(certificate: Mapping[str, Any]) -> str:
@@ -158,10 +194,12 @@ def _multipliers(certificate: Mapping[str, Any]) -> Verified:
     second sum must vanish, or x_i has a box. "Slack" conditions say that a variable is > 0: their Z is the bracket.
     """
     costs = certificate["objective"]
-    residual = {int(i): number(c) for i, c in costs["coefficients"].items()}
+    residual = {i: number(c) for i, c in terms(costs["coefficients"]).items()}
     value, strict_active, balls = number(costs["constant"]), False, False
+    slack, boxes = list(certificate["witness"]["slack"]), _unknown_boxes(certificate)
     for form in certificate["forms"]:
-        if form["name"] in certificate["witness"]["slack"]:
+        _check_places(form)
+        if form["name"] in slack:
             continue
         Z = dense(certificate["witness"]["multipliers"][form["name"]])
         if form["sense"] != "=" and not (positive_definite(Z) or positive_semidefinite(Z)):
@@ -171,10 +209,10 @@ def _multipliers(certificate: Mapping[str, Any]) -> Verified:
             isinstance(e[2], dict) for M in (form["constant"], *form["coefficients"].values()) for e in M
         )
         value = value - _inner(Z, form, form["constant"])
-        for i, M in form["coefficients"].items():
-            residual[int(i)] = residual.get(int(i), fmpq(0)) - _inner(Z, form, M)
+        for i, M in terms(form["coefficients"]).items():
+            residual[i] = residual.get(i, fmpq(0)) - _inner(Z, form, M)
     for form in certificate["forms"]:
-        if form["name"] in certificate["witness"]["slack"]:
+        if form["name"] in slack:
             Z, certain = _take_slack(form, residual)
             if not certain:
                 return Verified(False, "ball" if balls else "exact", f"the slack of {form['name']} is not definite")
@@ -182,9 +220,9 @@ def _multipliers(certificate: Mapping[str, Any]) -> Verified:
     for i, r in residual.items():
         if type(r) is fmpq and r == 0:
             continue
-        if str(i) not in certificate["unknown_boxes"]:
+        if i not in boxes:
             return Verified(False, "exact", f"the multipliers do not eliminate {certificate['unknowns'][i]}")
-        low, high = (number(end) for end in certificate["unknown_boxes"][str(i)])
+        low, high = boxes[i]
         value = value + _smallest(r * low, r * high)
     strength = "ball" if balls or isinstance(value, arb) else "exact"
     if certificate["statement"] == "bound":
@@ -192,16 +230,56 @@ def _multipliers(certificate: Mapping[str, Any]) -> Verified:
     if costs["coefficients"] or number(costs["constant"]) != 0:
         return Verified(False, "exact", "a proof of infeasibility has no objective")
     if value > 0 or (strict_active and value >= 0):
-        return Verified(True, strength, "multipliers contradict the conditions for every value of the unknowns")
+        where = " in their boxes" if boxes else ""
+        return Verified(True, strength, f"multipliers contradict the conditions for every value of the unknowns{where}")
     return Verified(False, strength, f"the multipliers give no contradiction: {value} is not positive")
+
+
+def _check_places(form: Mapping[str, Any]) -> None:
+    """Raise CertificateError for a sense that is unknown or an entry that lies outside the (upper half of the) form."""
+    _check_sense(form)
+    for entries in (form["constant"], *terms(form["coefficients"]).values()):
+        for i, j, _ in entries:
+            if not (type(i) is int and type(j) is int and 0 <= i < form["size"] and j >= 0):
+                raise CertificateError(f"{form['name']}: no entry ({i}, {j})")
+            if form["sense"] != "=" and not i <= j < form["size"]:
+                raise CertificateError(f"{form['name']}: entry ({i}, {j}) is below the diagonal or outside")
+
+
+def order(certificate: Mapping[str, Any]) -> list[str]:
+    """Names of the variables as their unknowns are numbered. Raises CertificateError if one is missing or doubled."""
+    names = list(certificate["order"])
+    if sorted(names) != sorted(certificate["variables"]):
+        raise CertificateError("the order is not that of the variables")
+    return names
+
+
+def _unknown_boxes(certificate: Mapping[str, Any]) -> dict[int, tuple[Any, Any]]:
+    """Interval of every scalar unknown from the boxes of the variables. Raises CertificateError for an empty one."""
+    out: dict[int, tuple[Any, Any]] = {}
+    first = 0
+    for name in order(certificate):
+        entries = certificate["variables"][name]["entries"]
+        if name in certificate["boxes"]:
+            low, high = (dense(end) for end in certificate["boxes"][name])
+            for i, j, k, sign in entries:
+                ends = (low[i][j], high[i][j]) if sign > 0 else (-high[i][j], -low[i][j])
+                a, b = out.get(first + k, ends)
+                out[first + k] = (max(a, ends[0]), min(b, ends[1]))
+        first += max(entry[2] for entry in entries) + 1
+    if not all(low <= high for low, high in out.values()):
+        raise CertificateError("a box is empty")
+    if {i: (number(low), number(high)) for i, (low, high) in terms(certificate["unknown_boxes"]).items()} != out:
+        raise CertificateError("the boxes of the unknowns are not those of the variables")
+    return out
 
 
 def _inner(Z: list[list[Any]], form: Mapping[str, Any], entries: Any) -> Any:
     """<Z, M> for symmetric M given by its upper triangle [[i, j, value], ...]; for equalities by all its entries."""
+    if len(Z) != form["size"]:
+        raise CertificateError(f"{form['name']}: the multiplier has another size")
     total: Any = fmpq(0)
     for i, j, entry in entries:
-        if form["sense"] != "=" and i > j:
-            raise CertificateError(f"{form['name']}: entry below the diagonal")
         total = total + _count(form, i, j) * Z[i][j] * number(entry)
     return total
 
@@ -213,14 +291,16 @@ def _count(form: Mapping[str, Any], i: int, j: int) -> int:
 def _take_slack(form: Mapping[str, Any], residual: dict[int, Any]) -> tuple[list[list[Any]], bool]:
     """Multiplier of the condition "V > 0" that makes the residuals of V's unknowns vanish; whether it is >= 0."""
     n = form["size"]
+    if n > len(form["coefficients"]):
+        raise CertificateError(f"{form['name']} is not of the form V > 0")
     Z: list[list[Any]] = [[fmpq(0)] * n for _ in range(n)]
     places: set[tuple[int, int]] = set()
-    for i, M in form["coefficients"].items():
+    for i, M in terms(form["coefficients"]).items():
         if len(M) != 1 or number(M[0][2]) != 1 or (M[0][0], M[0][1]) in places:
             raise CertificateError(f"{form['name']} is not of the form V > 0")
         a, b, _ = M[0]
         places.add((a, b))
-        Z[a][b] = Z[b][a] = residual.pop(int(i), fmpq(0)) / _count(form, a, b)
+        Z[a][b] = Z[b][a] = residual.pop(i, fmpq(0)) / _count(form, a, b)
     if form["constant"]:
         raise CertificateError(f"{form['name']} is not of the form V > 0")
     return Z, positive_definite(Z) or positive_semidefinite(Z)
@@ -235,6 +315,8 @@ def _smallest(a: Any, b: Any) -> Any:
 def _compared(value: Any, certificate: Mapping[str, Any], strength: str, how: str, *, from_point: bool) -> Verified:
     """Hold a proven value against the bound that is stated. Maxima are stored as minima of minus the objective."""
     stated, side, sense = number(certificate["bound"]["value"]), certificate["bound"]["side"], certificate["sense"]
+    if sense not in ("min", "max") or not isinstance(stated, fmpq):
+        raise CertificateError(f"expected a rational bound of a min or max, found {stated} of {sense!r}")
     if side != ("upper" if from_point == (sense == "min") else "lower"):
         return Verified(False, "exact", f"this proof gives no {side} bound of a {sense}imum")
     target = stated if sense == "min" else -stated
@@ -297,8 +379,12 @@ def positive_semidefinite(M: list[list[Any]]) -> bool:
     return True
 
 
-def main(argv: list[str]) -> int:
-    """Verify the files of the command line; 0 if every statement holds, 1 if one does not, 2 for a file not read."""
+def main(argv: list[str], root: Path | str | None = None) -> int:
+    """Verify the files of the command line against the papers under ``root``, as in `check`.
+
+    Returns 0 if every statement holds, 1 if one does not, 2 for a file that cannot be read. What a file says of itself
+    is shown as its own words: `Verified.why` alone was checked.
+    """
     if not argv or any(a.startswith("-") for a in argv):
         print("usage: recontrol verify FILE...", file=sys.stderr)
         return 2
@@ -308,12 +394,12 @@ def main(argv: list[str]) -> int:
             certificate = json.loads(Path(name).read_text(encoding="utf-8"))
             if not isinstance(certificate, dict):
                 raise CertificateError("not a JSON object")
-        except (OSError, ValueError) as error:
+        except (OSError, ValueError, RecursionError) as error:
             print(f"{name}: cannot be read: {error}")
             code = 2
             continue
-        found = check(certificate)
-        says = f" ({certificate.get('says', '')})" if found.holds else ""
+        found = check(certificate, root)
+        says = f" (in the file's own words: {certificate['says']})" if found.holds and certificate.get("says") else ""
         print(f"{name}: {'holds' if found.holds else 'REFUSED'}, {found.strength}: {found.why}{says}")
         code = max(code, 0 if found.holds else 1)
     return code
