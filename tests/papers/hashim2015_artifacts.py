@@ -6,10 +6,11 @@ import functools
 import inspect
 from typing import Any
 
-from papers.hashim2015 import model, simulation
+from papers.hashim2015 import model
 from papers.hashim2015.quantities import experiments
-from papers.hashim2015.synthesis import gains
+from papers.hashim2015.synthesis.gains import gains
 from recontrol import paper
+from recontrol.pipeline import inputs
 from tests.conftest import ROOT
 
 DATA = paper.load(ROOT / "papers/hashim2015").data
@@ -28,6 +29,6 @@ def simulated() -> dict[str, Any]:
     """All parts of the simulation: name -> {values, series}."""
     parts = {}
     for name in experiments.PARTS:
-        values, series = call(getattr(simulation, name))
+        values, series = call(inputs.function_of("hashim2015", "simulation", name))
         parts[name] = {"values": values, "series": series}
     return parts

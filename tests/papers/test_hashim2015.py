@@ -7,9 +7,9 @@ import pytest
 from flint import fmpq
 from scipy.linalg import solve_continuous_are
 
-from papers.hashim2015 import analysis, certificates, identities, intervals, recipe
+from papers.hashim2015 import analysis, certificates, identities, intervals, loops, recipe
 from papers.hashim2015.quantities.loops import enclosures, sign_overlap
-from papers.hashim2015.readings import formulas, misprints, support
+from papers.hashim2015.readings import formulas, misprints
 from papers.hashim2015.synthesis.identifiability import row_of_52
 from papers.hashim2015.synthesis.lqr import EnclosureError, lower_end, moment, upper_end
 from recontrol.claims.identity import equal
@@ -78,7 +78,7 @@ def test_loop_separates_only_with_the_correct_sign():
 def vertices(count: int) -> list[dict[str, np.ndarray]]:
     """Random corners of the rounding box of (66)-(69)."""
     rng = np.random.default_rng(3)
-    centre, half = support.printed_reduced(lambda name: DATA[name]), support.printed_reduced(DATA.half)
+    centre, half = loops.printed_reduced(lambda name: DATA[name]), loops.printed_reduced(DATA.half)
     out = []
     for _ in range(count):
         corner = {}
