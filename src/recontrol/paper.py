@@ -148,15 +148,21 @@ class PaperFile(Strict):
         return self
 
 
-def validate(model: type[Strict], content: Any, lines: yamltext.Lines, path: Path, prefix: tuple = ()) -> Any:
-    """Validate parsed YAML; raises PaperError that names file, line, key path, and what was expected and found."""
+def validate(
+    model: type[Strict], content: Any, lines: yamltext.Lines, path: Path, prefix: tuple = (), owner: str = ""
+) -> Any:
+    """Validate parsed YAML; raises PaperError that names file, line, key path, and what was expected and found.
+
+    prefix: where the content stands in the file; owner: what the message calls that place instead.
+    """
     try:
         return model.model_validate(content)
     except ValidationError as error:
         messages = []
         for item in error.errors()[:8]:
             place = tuple(item["loc"])
-            key_path = ".".join(str(step) for step in (*prefix, *place)) or "(top level)"
+            steps = ".".join(str(step) for step in (place if owner else (*prefix, *place)))
+            key_path = ": ".join(part for part in (owner, steps) if part) or "(top level)"
             found = "" if item["type"] in ("missing", "extra_forbidden") else f"; found {_short(item.get('input'))}"
             hint = (
                 "; a comma inside {...} ends a value: quote it"

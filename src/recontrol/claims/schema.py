@@ -124,7 +124,7 @@ def load(paper: Paper) -> list[Claim]:
         raise PaperError(f"{path}: expected a list of claims; zero claims prove nothing")
     claims: list[Claim] = []
     for index, item in enumerate(content):
-        claims.append(validate(Claim, item, lines, path, prefix=(index,)))
+        claims.append(validate(Claim, item, lines, path, prefix=(index,), owner=_owner(item, index)))
     seen: dict[str, int] = {}
     notes = note_ids(paper.folder)
     for index, claim in enumerate(claims):
@@ -137,6 +137,12 @@ def load(paper: Paper) -> list[Claim]:
         except PaperError as error:
             raise PaperError(f"{where}: {error}") from None
     return claims
+
+
+def _owner(item: Any, index: int) -> str:
+    """What a message calls a claim that did not validate: its id, or its place in the file if it has none."""
+    name = item.get("id") if isinstance(item, dict) else None
+    return f"claim {name}" if isinstance(name, str) and name else f"claim number {index + 1}"
 
 
 def _cross_check(claim: Claim, paper: Paper, notes: set[str]) -> None:
