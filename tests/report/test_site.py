@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import hashlib
+import re
 import shutil
 from html.parser import HTMLParser
 from pathlib import Path
@@ -111,6 +112,15 @@ def test_the_correct_form_stands_beside_the_print(tree: Path) -> None:
     assert '<span class="role">correct</span> a shift row has <math' in article(tree, "eq55-e65")
     sheet = text_of(tree)[text_of(tree).index('id="errata"') :]
     assert '<span class="role">correct</span> a shift row has <math' in sheet or "0</mark>" in sheet
+
+
+def test_the_table_of_all_claims_holds_print_and_finding(tree: Path) -> None:
+    text = text_of(tree)
+    table = text[text.index('class="glance') : text.index("</table>")]
+    rows = table.split('<tr class="row"')[1:]
+    assert len(rows) == len(Paper(tree, fake.KEY).claims)
+    (row,) = [row for row in rows if 'href="#eq65-2"' in row]
+    assert re.findall(r'data-label="(printed|found)">(.*?)</td>', row) == [("printed", "0.5147"), ("found", "0.5148")]
 
 
 def test_only_cells_of_the_claim_are_compared(tree: Path) -> None:

@@ -10,13 +10,9 @@ import re
 from pathlib import Path
 
 from recontrol.errors import MissingArtifactError
-from recontrol.report import cite, numbers, present, words
+from recontrol.report import brief, cite, present, words
 from recontrol.report.claim import Claim
 from recontrol.report.collect import Paper
-
-DIGITS = 4
-"""Significant digits of a margin. Margins are given only where they refute a print beyond rounding errors: others may
-depend on the point that a solver happened to return."""
 
 STRENGTHS = {
     "exact": "exact rational arithmetic",
@@ -95,32 +91,7 @@ def _claim_cells(claim: Claim) -> list[str]:
         verdict += f"; explained by {', '.join(claim.explained_by)}"
     if claim.verdict == "reproduced-under-assumption":
         verdict += f": {claim.reading}"
-    return [claim.id, claim.where, claim.title, printed(claim), found(claim), verdict, claim.strength or ""]
-
-
-def printed(claim: Claim) -> str:
-    """Return the print in short: the cells of the claim, or words."""
-    cells = present.printed_cells(claim)
-    if not cells:
-        return " ".join((claim.printed or "").split())
-    if len(cells) > 4:
-        return f"{len(cells)} entries"
-    return ", ".join(numbers.pretty_print(cell) for cell in cells)
-
-
-def found(claim: Claim) -> str:
-    """Return what was found in short, to digits that do not depend on the solver."""
-    finding = claim.decisive
-    if finding is None or claim.verdict == "unspecified":
-        return ""
-    compared = present.compared(claim, finding)
-    if 0 < len(compared) <= 4:
-        return ", ".join(numbers.write_like(cell, text) for cell, text in compared)
-    text = numbers.rounded_text(present.found_text(claim, finding), DIGITS)
-    margin = re.search(r" = \S*\d", text) is not None
-    if margin and (claim.verdict != "erratum" or claim.strength == "float"):
-        return {"yes": "holds", "no": "does not hold"}.get(finding.agrees, finding.agrees)
-    return text
+    return [claim.id, claim.where, claim.title, brief.printed(claim), brief.found(claim), verdict, claim.strength or ""]
 
 
 def errata(paper: Paper) -> str:
@@ -150,11 +121,11 @@ def errata(paper: Paper) -> str:
 
 def _erratum(number: int, claim: Claim) -> list[str]:
     value = present.correction(claim)
-    value = value if claim.correct else value and found(claim)
+    value = value if claim.correct else value and brief.found(claim)
     proof = STRENGTHS.get(claim.strength or "", "")
     how = words.COMPARISONS.get(claim.compare, claim.compare)
     lines = [f"### {number}. {claim.where}: {claim.title}", ""]
-    lines.append(f"- Printed: {printed(claim) or 'see there'}")
+    lines.append(f"- Printed: {brief.printed(claim) or 'see there'}")
     lines += [f"- {'Correct' if claim.correct else 'Found'}: {value}"] if value else []
     lines.append(f"- Reason: {' '.join(claim.because.split())}")
     lines += [f"- Origin: {claim.explanations[0].name}"] if claim.explanations else []

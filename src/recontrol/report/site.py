@@ -13,7 +13,7 @@ from typing import Any
 from jinja2 import Environment, PackageLoader, StrictUndefined
 from markupsafe import Markup
 
-from recontrol.report import numbers, present, text, values, words
+from recontrol.report import brief, numbers, present, text, values, words
 from recontrol.report.collect import Paper
 
 LIBRARIES = (
@@ -73,7 +73,7 @@ def _environment() -> Environment:
         keep_trailing_newline=True,
     )
     environment.filters.update(md=text.inline, notes=text.notes, anchor=text.anchor, tree=values.tree)
-    environment.globals.update(words=words, present=present, values=values, numbers=numbers, up="")
+    environment.globals.update(words=words, brief=brief, present=present, values=values, numbers=numbers, up="")
     return environment
 
 
