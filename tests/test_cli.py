@@ -66,7 +66,9 @@ def test_explain_shows_cases_proofs_and_failures(run) -> None:
     assert "case roll: differs, margin = -0.25" in run("explain", "fake2020/s3-pattern")[1]
     assert "recontrol verify results/fake2020/certificates/loop-full.json" in run("explain", "fake2020/eq44-K")[1]
     assert "SolverError" in run("explain", "fake2020/s2-broken")[1]
-    assert "No reading has run" in run("explain", "fake2020/s2-absent")[1]
+    absent = run("explain", "fake2020/s2-absent")[1]
+    assert "No reading has run" in absent
+    assert "absent in papers/fake2020/readings/proofs.py" in absent
 
 
 @pytest.mark.parametrize(

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import importlib
 import inspect
+import re
 import sys
 from collections.abc import Callable, Iterator, Mapping
 from pathlib import Path
@@ -146,13 +147,16 @@ def where(function: Callable[..., Any]) -> str:
     return f"{source['file']}:{source['line']}"
 
 
-def source_of(function: Callable[..., Any]) -> dict[str, Any]:
-    """File (relative to the working directory) and line of a function."""
+def source_of(function: Callable[..., Any], name: str | None = None) -> dict[str, Any]:
+    """File (relative to the working directory) and line of a function; the line of `name = ...` if it was made so."""
     code = inspect.unwrap(function).__code__
-    path = Path(code.co_filename)
+    path, line = Path(code.co_filename), code.co_firstlineno
+    if name and name != code.co_name:
+        made = re.search(rf"^{re.escape(name)} = ", path.read_text(encoding="utf-8"), re.MULTILINE)
+        line = made.string[: made.start()].count("\n") + 1 if made else line
     if path.is_relative_to(Path.cwd()):
         path = path.relative_to(Path.cwd())
-    return {"file": path.as_posix(), "line": code.co_firstlineno}
+    return {"file": path.as_posix(), "line": line}
 
 
 def load_config(path: Path | str = "config/config.yaml") -> dict[str, Any]:

@@ -73,7 +73,7 @@ def _find(claim: Claim, reading: Reading, paper: Paper, available: inputs.Inputs
     extra: dict[str, Any] = {"function": reading.function, "note": reading.note, "source": None, "evidence": {}}
     try:
         function = inputs.function_of(paper.key, "readings", reading.function)
-        extra["source"] = inputs.source_of(function)
+        extra["source"] = inputs.source_of(function, reading.function.rpartition(".")[2])
         if reading.over is None:
             outcome, result = _one(claim, reading, available.call(function), paper)
             cases: list[dict[str, Any]] = []

@@ -110,7 +110,18 @@ def explain(root: Path, identity: str) -> str:
         lines += ["", *_reading(found, finding)]
     if not found.findings:
         lines += ["", "No reading has run: `snakemake --cores 2 " + found.paper + "` makes the verdicts."]
+        lines += [f"  {name}   {place}" for name, place in _places(found)]
     return plain("\n".join(line.rstrip() for line in lines))
+
+
+def _places(found: Claim) -> list[tuple[str, str]]:
+    """Return (reading, its function in words) as claims.yaml names them."""
+    named = []
+    for entry in found.entry.get("readings") or []:
+        topic, _, function = str(entry.get("function", "")).rpartition(".")
+        module = f"papers/{found.paper}/readings{'/' if topic else ''}{topic}.py"
+        named.append((str(entry.get("name", "?")), f"{function} in {module}"))
+    return named
 
 
 def _printed(found: Claim) -> list[str]:
