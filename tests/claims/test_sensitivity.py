@@ -8,7 +8,7 @@ import numpy as np
 from flint import fmpq
 
 from recontrol.claims import compare as comparing
-from recontrol.claims import sensitivity
+from recontrol.claims import scalars, sensitivity
 from recontrol.claims.schema import Claim
 
 
@@ -38,7 +38,7 @@ def test_every_changed_digit_changes_the_verdict():
 
 def test_enclosure_is_rounded_outward():
     for value in (fmpq(1, 3), fmpq(-2, 3), fmpq(10**30, 7), fmpq(-1, 7 * 10**30), fmpq(1), fmpq(999999, 1000)):
-        low, high = comparing._decimal(value, down=True), comparing._decimal(value, down=False)
+        low, high = scalars.decimal_end(value, down=True), scalars.decimal_end(value, down=False)
         below, above = sensitivity._rational(low), sensitivity._rational(high)
         assert below <= value <= above
         assert above - below <= abs(value) / fmpq(10) ** 22

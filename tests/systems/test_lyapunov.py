@@ -7,6 +7,7 @@ import pytest
 
 from recontrol.simulate import linear
 from recontrol.systems import lyapunov
+from recontrol.systems.stability import UnstableError
 from recontrol.systems.statespace import state_space
 
 RNG = np.random.default_rng(5)
@@ -43,5 +44,5 @@ def test_noise_cost_of_a_lag():
 
 
 def test_unstable_systems_are_refused():
-    with pytest.raises(lyapunov.UnstableError, match="spectral abscissa"):
+    with pytest.raises(UnstableError, match="spectral abscissa"):
         lyapunov.integral_square([[0.0]], [[1.0]], [1.0])

@@ -12,9 +12,10 @@ from recontrol.claims.values import Result, Statement
 from recontrol.exact.ball import precision, to_ball
 from recontrol.exact.rational import zeros
 from recontrol.spacecraft.flexible import linear_model
-from recontrol.systems.norms import hinf_norm, spectrum
+from recontrol.systems.norms import hinf_norm
 from recontrol.systems.output_feedback import closed_loop
 from recontrol.systems.regions import prove_in_disk, shifted_gap
+from recontrol.systems.stability import spectrum
 
 from ..plant import controller, loop, plant
 from ..synthesis.analysis import boxed_loop

@@ -75,7 +75,7 @@ def _dual_h2(A: np.ndarray, B: np.ndarray, C: np.ndarray) -> arb:
 
 def _trace_of_root(gramian: np.ndarray) -> arb:
     """Trace of the matrix square root: the sum of the roots of the eigenvalues."""
-    from recontrol.systems.norms import spectrum
+    from recontrol.systems.stability import spectrum
 
     symmetric = (gramian + gramian.T) * fmpq(1, 2)
     return sum((value.real.sqrt() for value in spectrum(symmetric, plant.BITS)), arb(0))

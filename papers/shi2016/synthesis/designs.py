@@ -42,7 +42,8 @@ def scaled_effort(data: Any, effort: fmpq, name: str) -> fmpq:
 
 def performance(data: Any, K: np.ndarray, name: str) -> dict[str, Any]:
     """h2, effort and H-infinity norm of the loop with a float gain in scaled units; the gain in SI units."""
-    from recontrol.systems.norms import hinf_norm, is_hurwitz
+    from recontrol.systems.norms import hinf_norm
+    from recontrol.systems.stability import is_hurwitz
 
     exact = rounded(K, 12)
     with precision(plant.BITS):

@@ -9,9 +9,9 @@ import flint
 import numpy as np
 
 from recontrol.claims.printed import Cell, Number, Printed, parse_mask
+from recontrol.claims.scalars import as_matrix, decimal_end, describe, is_complex, matrix_text, middle, real_and_imag
 from recontrol.claims.schema import Claim
 from recontrol.claims.values import (
-    Approx,
     Certified,
     Identity,
     Membership,
@@ -96,7 +96,7 @@ def _numeric(claim: Claim, how: str, value: Any, printed: Printed) -> Outcome:
     return Outcome(
         agrees=combine([entry.agrees for entry in entries]),
         strength=weakest(strengths),
-        found=_matrix_text(
+        found=matrix_text(
             [
                 [describe(found[i, j]) if mask[i, j] else "." for j in range(printed.shape[1])]
                 for i in range(printed.shape[0])
@@ -112,7 +112,7 @@ def _entry(claim: Claim, how: str, cell: Cell, found: Any, place: str, exact: bo
     parts = _parts(cell, found)
     ends = [enclosure(part) for _, part in parts]
     agrees = combine([agreement(claim, how, number, *end, exact) for (number, _), end in zip(parts, ends, strict=True)])
-    distances = [abs(_middle(part) - number.value) for number, part in parts]
+    distances = [abs(middle(part) - number.value) for number, part in parts]
     units = [float(d / number.unit) for d, (number, _) in zip(distances, parts, strict=True)]
     return Entry(
         place=place,
@@ -123,31 +123,17 @@ def _entry(claim: Claim, how: str, cell: Cell, found: Any, place: str, exact: bo
         units_in_last_place=max(units),
         digits=min((_digits(n, d) for d, (n, _) in zip(distances, parts, strict=True) if n.digits), default=0),
         digits_printed=min((number.digits for number, _ in parts if number.digits), default=0),
-        enclosure=[(_decimal(low, down=True), _decimal(high, down=False)) for low, high in ends],
+        enclosure=[(decimal_end(low, down=True), decimal_end(high, down=False)) for low, high in ends],
     )
 
 
 def _parts(cell: Cell, found: Any) -> list[tuple[Number, Any]]:
     if cell.imag is None:
-        if _is_complex(found):
+        if is_complex(found):
             raise ValueContractError(f"printed {cell.text!r} is real, the reading returned a complex value")
         return [(cell.real, found)]
     real, imag = real_and_imag(found)
     return [(cell.real, real), (cell.imag, imag)]
-
-
-def _decimal(end: Any, down: bool, digits: int = 25) -> str:
-    """A rational rounded outward to a decimal of `digits` significant digits."""
-    if end == 0:
-        return "0"
-    exponent = digits - len(str(abs(int(end.p)) // int(end.q))) if abs(end) >= 1 else digits + _leading_zeros(end)
-    scaled = end * flint.fmpq(10) ** exponent
-    mantissa = scaled.floor() if down else scaled.ceil()
-    return f"{mantissa}e{-exponent}"
-
-
-def _leading_zeros(end: Any) -> int:
-    return len(str(int(end.q) // abs(int(end.p)))) - 1
 
 
 def agreement(claim: Claim, how: str, number: Number, low: Any, high: Any, exact: bool) -> str:
@@ -223,50 +209,6 @@ def _membership(claim: Claim, value: Membership) -> Outcome:
     return Outcome({True: YES, False: NO, None: OPEN}[value.inside], value.strength, value.why or words)
 
 
-def as_matrix(value: Any, shape: tuple[int, int]) -> Any:
-    """Object array of scalars of the printed shape. Raises ValueContractError for another shape or type."""
-    if isinstance(value, Approx) and np.ndim(value.value):
-        values = np.asarray(value.value)
-        errors = np.broadcast_to(np.asarray(value.error, dtype=float), values.shape)
-        flat = [Approx(v.item(), e.item()) for v, e in zip(values.ravel(), errors.ravel(), strict=True)]
-        array = np.empty(len(flat), dtype=object)
-        array[:] = flat
-        value = array.reshape(values.shape)
-    elif not isinstance(value, np.ndarray):
-        array = np.empty((1, 1), dtype=object)
-        array[0, 0] = value
-        value = array
-    if value.dtype != object:
-        raise ValueContractError(f"an array of {value.dtype} carries no error bound; wrap it as Approx(value, error)")
-    if value.ndim == 1 and value.size == shape[0] * shape[1] and 1 in shape:
-        value = value.reshape(shape)
-    if value.shape != shape:
-        raise ValueContractError(f"the reading returned shape {value.shape}, the print has {shape}")
-    return value
-
-
-def real_and_imag(value: Any) -> tuple[Any, Any]:
-    """Real and imaginary part as scalars of the same strength."""
-    from flint import acb
-
-    if isinstance(value, acb):
-        return value.real, value.imag
-    if isinstance(value, Approx):
-        return Approx(complex(value.value).real, value.error), Approx(complex(value.value).imag, value.error)
-    return value, flint.fmpq(0)
-
-
-def _is_complex(value: Any) -> bool:
-    if isinstance(value, Approx):
-        return isinstance(value.value, complex)
-    return isinstance(value, flint.acb)
-
-
-def _middle(scalar: Any) -> Any:
-    low, high = enclosure(scalar)
-    return (low + high) / 2
-
-
 def _digits(number: Number, distance: Any) -> int:
     """Leading significant digits of the print with which a value at this distance agrees."""
     for dropped in range(number.digits):
@@ -285,29 +227,3 @@ def _strength(value: Any) -> str:
     if isinstance(value, np.ndarray):
         return weakest([strength_of(scalar) for scalar in value.ravel()])
     return strength_of(value)
-
-
-def describe(value: Any, digits: int = 10) -> str:
-    """A value as short text: decimals to `digits` significant digits, balls and floats without false digits."""
-    if isinstance(value, np.ndarray):
-        return _matrix_text([[describe(cell, digits) for cell in row] for row in np.atleast_2d(value)])
-    if isinstance(value, Approx):
-        if np.ndim(value.value):
-            return _matrix_text([[f"{cell:.{digits}g}" for cell in row] for row in np.atleast_2d(value.value)])
-        if isinstance(value.value, complex):
-            return f"{value.value.real:.{digits}g}{value.value.imag:+.{digits}g}i"
-        return f"{float(value.value):.{digits}g}"
-    if isinstance(value, flint.acb):
-        return f"{describe(value.real, digits)}{'' if _middle(value.imag) < 0 else '+'}{describe(value.imag, digits)}i"
-    if isinstance(value, flint.arb):
-        return f"{float(value.mid()):.{digits}g}"
-    if isinstance(value, (flint.fmpq, flint.fmpz, int)):
-        exact = flint.fmpq(value)
-        return str(exact) if exact.q == 1 and abs(exact.p) < 10**digits else f"{int(exact.p) / int(exact.q):.{digits}g}"
-    if isinstance(value, Statement):
-        return "; ".join(f"{name} = {describe(margin)}" for name, margin in value.named().items())
-    return str(value)
-
-
-def _matrix_text(rows: list[list[str]]) -> str:
-    return "\n".join(" ".join(row) for row in rows)

@@ -9,13 +9,10 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 from scipy.linalg import solve_continuous_lyapunov
 
+from recontrol.systems.stability import UnstableError
 from recontrol.systems.statespace import StateSpace, spectral_abscissa
 
 Array = NDArray[np.float64]
-
-
-class UnstableError(ValueError):
-    """A cost over an infinite horizon was asked of a system that is not stable."""
 
 
 def _require_stable(A: Array) -> None:

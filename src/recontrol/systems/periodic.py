@@ -22,7 +22,8 @@ import numpy as np
 from flint import acb, acb_mat, arb, arb_mat
 
 from recontrol.exact.ball import exact_midpoint, precision, to_ball
-from recontrol.systems.norms import UndecidedError, hinf_norm
+from recontrol.systems.norms import hinf_norm
+from recontrol.systems.stability import UndecidedError
 
 
 @dataclass(frozen=True)

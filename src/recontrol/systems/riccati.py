@@ -104,7 +104,7 @@ def bounds(A: np.ndarray, Q: np.ndarray, S: np.ndarray, *, shift: fmpq = SHIFT, 
     Parameters: as `minimal_solution`; for balls the bounds hold for every matrix of the box (choose ``shift`` above its
     effect). Raises NoSolutionError if a side cannot be proven.
     """
-    from recontrol.systems.norms import is_hurwitz
+    from recontrol.systems.stability import is_hurwitz
 
     scale = fmpq(1) + max(abs(exact_midpoint(q)) for q in np.ravel(Q))
     offset = identity(len(A)) * (shift * scale)
