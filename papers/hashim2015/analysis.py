@@ -141,9 +141,9 @@ def deciding_members(model: Any, data: Any) -> dict[str, np.ndarray]:
     return members
 
 
-def nearest_match(first: np.ndarray, second: np.ndarray) -> float:
-    """Largest distance in the best pairing of two spectra of one size."""
+def nearest(first: np.ndarray, second: np.ndarray) -> np.ndarray:
+    """Distances between two equally long sets of points, matched so that their sum is least."""
     from scipy.optimize import linear_sum_assignment
 
-    distance = np.abs(np.subtract.outer(first, second))
-    return float(distance[linear_sum_assignment(distance)].max())
+    distance = np.abs(first[:, None] - second[None, :])
+    return distance[linear_sum_assignment(distance)]

@@ -66,9 +66,10 @@ def pick(matrices: dict[str, Any], names: str, **more: Any) -> dict[str, Any]:
     return {name: matrices[name] for name in names.split()} | more
 
 
-def _problem(
+def problem(
     name: str, case: str, variables: Any, conditions: Any, data: Any, objective: Any = None, **more: Any
 ) -> Problem:
+    """A problem of this folder: data rebuilt by `source` from the case."""
     return Problem(name, variables, conditions, data, objective, paper="shi2016", case=case, source=SOURCE, **more)
 
 
@@ -90,11 +91,11 @@ def fixed(data: Any, gain: str, kind: str, g: fmpq, units: str = "scaled", **mor
     given = pick(matrices, "A B1 B2 C1 C2 D1 D2 K", gamma=_level(data, g, units))
     if kind == "prt":
         conditions = [c.brl_fixed, c.output_coupling]
-        return _problem(f"rho-prt-{gain}", case, {"X": X6, "Z": Y3}, conditions, given, minimise(c.total), **more)
+        return problem(f"rho-prt-{gain}", case, {"X": X6, "Z": Y3}, conditions, given, minimise(c.total), **more)
     bounded_real = c.brl_fixed if kind == "trad" else c.brl_std_fixed
     given["factor"] = _shared_factor(data, kind == "trad" and units == "scaled")
     conditions = [bounded_real, c.h2_lyapunov_fixed]
-    return _problem(f"rho-{kind}-{gain}", case, {"X": X6}, conditions, given, minimise(c.output_energy), **more)
+    return problem(f"rho-{kind}-{gain}", case, {"X": X6}, conditions, given, minimise(c.output_energy), **more)
 
 
 def h2_effort(data: Any, gain: str, effort_squared: fmpq, units: str = "scaled", **more: Any) -> Problem:
@@ -103,7 +104,7 @@ def h2_effort(data: Any, gain: str, effort_squared: fmpq, units: str = "scaled",
     given = pick(source(data, case), "A B1 B2 C2", factor=fmpq(1), rho=effort_squared)
     conditions = [c.h2_lyapunov, c.effort, condition(c.trace_below, "effort_bound", rename={"Z": "Y"})]
     variables = {"X": X6, "W": W36, "Y": Y3}
-    return _problem(f"h2-effort-{gain}", case, variables, conditions, given, minimise(c.output_energy), **more)
+    return problem(f"h2-effort-{gain}", case, variables, conditions, given, minimise(c.output_energy), **more)
 
 
 def single(data: Any, kind: str, g: fmpq, effort_squared: fmpq, units: str = "scaled", **more: Any) -> Problem:
@@ -118,7 +119,7 @@ def single(data: Any, kind: str, g: fmpq, effort_squared: fmpq, units: str = "sc
         condition(c.trace_below, "effort_bound", rename={"Z": "Y"}),
     ]
     variables = {"X": X6, "W": W36, "Y": Y3}
-    return _problem(f"single-{kind}", case, variables, conditions, given, minimise(c.output_energy), **more)
+    return problem(f"single-{kind}", case, variables, conditions, given, minimise(c.output_energy), **more)
 
 
 def least_effort(data: Any, g: fmpq) -> Problem:
@@ -129,7 +130,7 @@ def least_effort(data: Any, g: fmpq) -> Problem:
     case = "scaled:orbit"
     given = pick(source(data, case), "A B1 B2 C1 D1 D2", gamma=g)
     variables = {"X": X6, "W": W36, "Y": Y3}
-    return _problem("least-effort-print", case, variables, [c.brl, c.effort], given, minimise(c.total, Z="Y"))
+    return problem("least-effort-print", case, variables, [c.brl, c.effort], given, minimise(c.total, Z="Y"))
 
 
 def dilated(data: Any, g: fmpq, effort_squared: fmpq, e1: fmpq, e2: fmpq) -> Problem:
@@ -144,7 +145,7 @@ def dilated(data: Any, g: fmpq, effort_squared: fmpq, e1: fmpq, e2: fmpq) -> Pro
         condition(c.definite, "P1_definite", rename={"X": "P1"}),
     ]
     variables = {"P1": X6, "P2": X6, "G": full(6, 6), "F": W36, "Y": Y3}
-    return _problem("dilated", case, variables, conditions, given, minimise(c.output_energy, X="P2"))
+    return problem("dilated", case, variables, conditions, given, minimise(c.output_energy, X="P2"))
 
 
 def nonfragile(data: Any, effort_squared: fmpq | None, delta: str = "1") -> Problem:
@@ -160,7 +161,7 @@ def nonfragile(data: Any, effort_squared: fmpq | None, delta: str = "1") -> Prob
     else:
         del given["C2"]
     variables = {"X": X6, "W": W36, "Y": Y3, "e": scalar()}
-    return _problem("nonfragile", case, variables, conditions, given, objective)
+    return problem("nonfragile", case, variables, conditions, given, objective)
 
 
 def nonfragile_dual(data: Any) -> Problem:
@@ -169,7 +170,7 @@ def nonfragile_dual(data: Any) -> Problem:
     case = "scaled:nonfragile"
     given = pick(source(data, case), "A B1 B2 M N")
     conditions = [c.nonfragile_dual, c.nonfragile_dual_gain]
-    return _problem("nonfragile-dual", case, {"P": X6, "z": full(6, 1)}, conditions, given, maximise(c.dual_trace))
+    return problem("nonfragile-dual", case, {"P": X6, "z": full(6, 1)}, conditions, given, maximise(c.dual_trace))
 
 
 def thm1_iii(data: Any, gain: str, units: str = "scaled", **more: Any) -> Problem:
@@ -178,7 +179,7 @@ def thm1_iii(data: Any, gain: str, units: str = "scaled", **more: Any) -> Proble
     given = pick(source(data, case), "A B1 B2 C2 K")
     conditions = [c.thm1_iii, c.tied_n2, c.output_coupling]
     variables = {"X": X6, "Q": full(6, 6), "N2": full(6, 6), "Z": Y3}
-    return _problem(f"thm1-iii-{gain}", case, variables, conditions, given, minimise(c.total), **more)
+    return problem(f"thm1-iii-{gain}", case, variables, conditions, given, minimise(c.total), **more)
 
 
 def extended(data: Any, g: fmpq) -> Problem:
@@ -189,7 +190,7 @@ def extended(data: Any, g: fmpq) -> Problem:
     case = "scaled:ext"
     given = pick(source(data, case), "A B1 B2 C1 C2 D1 D2", gamma=g)
     conditions = [c.brl, c.output_coupling]
-    return _problem("thm2-printed", case, {"X": X6, "W": W36, "Z": Y3}, conditions, given, minimise(c.total))
+    return problem("thm2-printed", case, {"X": X6, "W": W36, "Z": Y3}, conditions, given, minimise(c.total))
 
 
 def traditional(data: Any, g: fmpq) -> Problem:
@@ -197,7 +198,7 @@ def traditional(data: Any, g: fmpq) -> Problem:
     case = "scaled:ext"
     given = pick(source(data, case), "A B1 B2 C1 C2 D1 D2", gamma=g, factor=_shared_factor(data, True))
     conditions = [c.brl, c.h2_lyapunov]
-    return _problem("traditional", case, {"X": X6, "W": W36}, conditions, given, minimise(c.output_energy))
+    return problem("traditional", case, {"X": X6, "W": W36}, conditions, given, minimise(c.output_energy))
 
 
 def vacuous(X: np.ndarray, A: np.ndarray, B2: np.ndarray) -> tuple[np.ndarray, np.ndarray]:

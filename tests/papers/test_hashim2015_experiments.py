@@ -6,10 +6,10 @@ import math
 import numpy as np
 import pytest
 
+from papers.hashim2015.analysis import nearest
 from papers.hashim2015.quantities import experiments
 from papers.hashim2015.simulation import designs
 from papers.hashim2015.simulation.limits import INPUT_WEIGHTS, SHAPING
-from papers.hashim2015.simulation.published import nearest
 from papers.hashim2015.simulation.recovery import observer
 from papers.hashim2015.simulation.regulator import HORIZON, SAMPLES, initial_states, loop_start, settle
 from papers.hashim2015.simulation.steps import percent

@@ -131,8 +131,8 @@ def separation_distance(model: Any, data: Any, synthesis: Any) -> dict[str, floa
             reduced = eigenvalues(companion(error.coeffs()[:-1]))
         full = analysis.as_row(eigenvalues(analysis.axis_full_loop(model, synthesis, axis)))
         corrected = analysis.as_row(eigenvalues(analysis.corrected_loop(model, synthesis, axis)))
-        out[f"{axis}: full"] = analysis.nearest_match(full, analysis.as_row([*controller, *estimator]))
-        out[f"{axis}: corrected"] = analysis.nearest_match(corrected, analysis.as_row([*controller, *reduced]))
+        out[f"{axis}: full"] = float(analysis.nearest(full, analysis.as_row([*controller, *estimator])).max())
+        out[f"{axis}: corrected"] = float(analysis.nearest(corrected, analysis.as_row([*controller, *reduced])).max())
     return out
 
 

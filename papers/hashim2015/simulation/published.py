@@ -13,6 +13,7 @@ import numpy as np
 from recontrol.simulate.linear import propagate
 from recontrol.systems.statespace import StateSpace, loop_matrix, spectral_abscissa, state_space
 
+from ..analysis import nearest
 from . import designs
 
 HORIZON, SAMPLES = 60.0, 2401  # s
@@ -21,14 +22,6 @@ HORIZON, SAMPLES = 60.0, 2401  # s
 def printed_reduced(data: Any) -> StateSpace:
     """(66)-(69) as printed, (67) as the column that it must be; u = +(C_r xc + D_r m)."""
     return state_space(data.float("A_r"), data.float("B_r").ravel(), data.float("C_r").ravel(), data.float("D_r"))
-
-
-def nearest(first: np.ndarray, second: np.ndarray) -> np.ndarray:
-    """Distances between two equally long sets of points, matched so that their sum is least."""
-    from scipy.optimize import linear_sum_assignment
-
-    distance = np.abs(first[:, None] - second[None, :])
-    return distance[linear_sum_assignment(distance)]
 
 
 def published(

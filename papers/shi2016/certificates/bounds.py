@@ -13,7 +13,6 @@ from recontrol.exact.linalg import inverse, lyapunov
 from recontrol.exact.rational import decimal, diagonal, identity, rounded
 from recontrol.lmi import enclosure
 from recontrol.lmi.conditions import condition
-from recontrol.lmi.problem import Problem
 from recontrol.lmi.proof import prove_feasible, prove_infeasible
 from recontrol.lmi.variables import symmetric
 from recontrol.systems import riccati
@@ -30,15 +29,9 @@ def _hurwitz(data: Any, gain: str) -> dict[str, Any]:
     case = f"box:{gain}"
     loop = problems.source(data, case)["A"]
     P = rounded(lyapunov(exact_midpoint(loop).T, diagonal(WEIGHTS[gain])), 12)
-    problem = Problem(
-        f"hurwitz-{gain}",
-        {"P": symmetric(6)},
-        [condition(c.definite, rename={"X": "P"}), c.decay],
-        {"A": loop, "rate": fmpq(0)},
-        paper="shi2016",
-        case=case,
-        source=problems.SOURCE,
-    )
+    conditions = [condition(c.definite, rename={"X": "P"}), c.decay]
+    given = {"A": loop, "rate": fmpq(0)}
+    problem = problems.problem(f"hurwitz-{gain}", case, {"P": symmetric(6)}, conditions, given)
     says = f"one P proves the loop with K_{gain} stable over its rounding box and for both Earth radii"
     return prove_feasible(problem, {"P": P}, says=says)
 
@@ -65,18 +58,12 @@ def decay_ext(data: Any) -> dict[str, Any]:
     case = "box:ext"
     loops = problems.source(data, case)
     rate = decimal(DECAY_RATE)
-    problem = Problem(
-        "decay-ext",
-        {"P": symmetric(6)},
-        [
-            condition(c.definite, rename={"X": "P"}),
-            *(condition(c.decay, f"decay_{n[2:]}", rename={"A": n}) for n in sorted(loops) if n != "A"),
-        ],
-        {name: loop for name, loop in loops.items() if name != "A"} | {"rate": rate},
-        paper="shi2016",
-        case=case,
-        source=problems.SOURCE,
-    )
+    ends = {name: loop for name, loop in loops.items() if name != "A"}
+    conditions = [
+        condition(c.definite, rename={"X": "P"}),
+        *(condition(c.decay, f"decay_{name[2:]}", rename={"A": name}) for name in sorted(ends)),
+    ]
+    problem = problems.problem("decay-ext", case, {"P": symmetric(6)}, conditions, ends | {"rate": rate})
     says = "x'Px falls at twice 0.15 1/s for every measurable F with abs(F) <= 1, both N, K_ext anywhere in its box"
     return prove_feasible(problem, {"P": _decay_matrix(data, rate)}, says=says)
 

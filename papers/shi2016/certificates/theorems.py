@@ -14,14 +14,14 @@ from flint import fmpq
 from recontrol.exact.ball import precision
 from recontrol.exact.linalg import inverse, lyapunov
 from recontrol.exact.rational import decimal, identity, rounded
-from recontrol.lmi.problem import Problem
+from recontrol.lmi.conditions import condition
 from recontrol.lmi.proof import prove_feasible, prove_infeasible
 from recontrol.lmi.variables import full, symmetric
 from recontrol.systems import riccati
 
 from .. import conditions as c
 from .. import oracle, plant, problems
-from ..problems import SOURCE, pick
+from ..problems import pick
 
 ADMITTED, BACKED_OFF = "1.01", "1.005"
 """g of the printed inequalities, and the smaller one for which the witness is computed."""
@@ -58,10 +58,6 @@ def _p_of_brl(data: Any, gain: str, g: str) -> np.ndarray:
     return plant.units(data, gain).quadratic(rounded(P, 12), back=True) * (1 / plant.scale_factors(data, gain)["h8"])
 
 
-def _problem(name: str, case: str, variables: Any, conditions: Any, data: Any) -> Problem:
-    return Problem(name, variables, conditions, data, paper="shi2016", case=case, source=SOURCE)
-
-
 def _thm2_printed(data: Any, gain: str) -> dict[str, Any]:
     case, si = _si(data, gain)
     P = _p_of_brl(data, gain, BACKED_OFF)
@@ -72,7 +68,7 @@ def _thm2_printed(data: Any, gain: str) -> dict[str, Any]:
     given = pick(si, "A B1 B2 C1 C2 D1 D2 K", gamma=decimal(ADMITTED) * data["z_weight"], rho=rho)
     conditions = [c.thm1_iii, c.output_coupling, c.trace_below, c.definite, c.brl, c.tied_gain]
     variables = {"X": symmetric(6), "W": full(3, 6), "Q": full(6, 6), "N2": full(6, 6), "Z": symmetric(3)}
-    problem = _problem(f"thm2-printed-{gain}", case, variables, conditions, given)
+    problem = problems.problem(f"thm2-printed-{gain}", case, variables, conditions, given)
     point = {"X": X, "W": si["K"] @ X, "Q": Q, "N2": N2, "Z": Z}
     return prove_feasible(problem, point, says=f"the LMIs of Theorem 2 as printed hold with K = K_{gain} and this rho")
 
@@ -89,7 +85,9 @@ def thm2_printed_trad(data: Any) -> dict[str, Any]:
 
 def _tied_shared(data: Any, gain: str) -> dict[str, Any]:
     case, si = _si(data, gain)
-    problem = _problem(f"tied-shared-{gain}", case, {"X": symmetric(6)}, [c.shared_inf, c.shared_h2], {"Ms": si["Ms"]})
+    problem = problems.problem(
+        f"tied-shared-{gain}", case, {"X": symmetric(6)}, [c.shared_inf, c.shared_h2], {"Ms": si["Ms"]}
+    )
     V = symmetriser(si["Ms"])
     product = si["Ms"] @ V
     multipliers = {"shared_inf": (product + product.T) * fmpq(1, 2), "shared_h2": V}
@@ -147,7 +145,7 @@ def _thm1_iii(data: Any, gain: str) -> dict[str, Any]:
     given = pick(si, "A B1 B2 C2 K", rho=np.trace(point["Z"]) * (1 + fmpq(1, 10**7)))
     conditions = [c.thm1_iii, c.tied_n2, c.output_coupling, c.trace_below, c.definite]
     variables = {"X": symmetric(6), "Q": full(6, 6), "N2": full(6, 6), "Z": symmetric(3)}
-    problem = _problem(f"thm1-iii-{gain}", case, variables, conditions, given)
+    problem = problems.problem(f"thm1-iii-{gain}", case, variables, conditions, given)
     return prove_feasible(problem, point, says=f"(iii) of Theorem 1 with N2 = Q'B1K holds for K_{gain} with this rho")
 
 
@@ -171,7 +169,7 @@ def _thm1_iv(data: Any, gain: str) -> dict[str, Any]:
     given = pick(si, "A B1 B2 C2 K", rho=np.trace(Z) * (1 + fmpq(1, 10**7)))
     conditions = [c.thm1_iv, c.tied_n3, c.input_coupling, c.trace_below, c.definite]
     variables = {"X": symmetric(6), "Q": full(6, 6), "N3": full(6, 6), "Z": symmetric(3)}
-    problem = _problem(f"thm1-iv-{gain}", case, variables, conditions, given)
+    problem = problems.problem(f"thm1-iv-{gain}", case, variables, conditions, given)
     point = {"X": X, "Q": Q, "N3": si["B1"] @ si["K"] @ Q, "Z": Z}
     return prove_feasible(problem, point, says=f"(iv) of Theorem 1, sizes corrected, holds for K_{gain} with this rho")
 
@@ -197,11 +195,11 @@ def _tied_separate(data: Any, gain: str) -> dict[str, Any]:
         c.output_coupling,
         c.trace_below,
         c.definite,
-        problems.condition(c.brl_fixed, rename={"X": "X_inf"}),
-        problems.condition(c.definite, "X_inf_definite", rename={"X": "X_inf"}),
+        condition(c.brl_fixed, rename={"X": "X_inf"}),
+        condition(c.definite, "X_inf_definite", rename={"X": "X_inf"}),
     ]
     variables = {"X": symmetric(6), "Q": full(6, 6), "N2": full(6, 6), "Z": symmetric(3), "X_inf": symmetric(6)}
-    problem = _problem(f"tied-separate-{gain}", case, variables, conditions, given)
+    problem = problems.problem(f"tied-separate-{gain}", case, variables, conditions, given)
     point = point | {"X_inf": _x_of_brl(data, gain, BACKED_OFF)}
     return prove_feasible(problem, point, says=f"(26) with N2 tied and (8) with an X of its own hold for K_{gain}")
 
@@ -224,7 +222,7 @@ def _lemmas(data: Any, gain: str) -> dict[str, Any]:
     gamma = decimal(ADMITTED) * data["z_weight"]
     given = pick(si, "A B1 B2 C1 C2 D1 D2 K", gamma=gamma, rho=np.trace(Z) * SLACK, factor=fmpq(1))
     conditions = [c.brl, c.h2_lyapunov, c.h2_output, c.trace_below, c.definite, c.tied_gain]
-    problem = _problem(
+    problem = problems.problem(
         f"lemmas-{gain}", case, {"X": symmetric(6), "W": full(3, 6), "Z": symmetric(3)}, conditions, given
     )
     point = {"X": X, "W": si["K"] @ X, "Z": Z}
@@ -248,7 +246,7 @@ def _lemma2(data: Any, gain: str) -> dict[str, Any]:
     given = pick(si, "A B1 B2 C2 K", rho=np.trace(Z) * (1 + fmpq(1, 10**7)), factor=fmpq(1))
     conditions = [c.h2_lyapunov, c.h2_output, c.trace_below, c.definite, c.tied_gain]
     variables = {"X": symmetric(6), "W": full(3, 6), "Z": symmetric(3)}
-    problem = _problem(f"lemma2-{gain}", case, variables, conditions, given)
+    problem = problems.problem(f"lemma2-{gain}", case, variables, conditions, given)
     point = {"X": X, "W": si["K"] @ X, "Z": Z}
     return prove_feasible(problem, point, says=f"(9) holds for K_{gain} with this rho, just above the squared H2 norm")
 
@@ -272,7 +270,7 @@ def _brl(data: Any, gain: str) -> dict[str, Any]:
     level, inner = TIGHT[gain]
     X = _x_of_brl(data, gain, inner, decimals=40, extra=12, bits=240)
     given = pick(si, "A B1 B2 C1 D1 D2 K", gamma=decimal(level) * data["z_weight"])
-    problem = _problem(f"brl-{gain}", case, {"X": symmetric(6)}, [c.brl_fixed, c.definite], given)
+    problem = problems.problem(f"brl-{gain}", case, {"X": symmetric(6)}, [c.brl_fixed, c.definite], given)
     return prove_feasible(problem, {"X": X}, says=f"(8) holds for K_{gain} just above the H-infinity norm of its loop")
 
 

@@ -62,19 +62,12 @@ def enclosure(scalar: Any) -> tuple[Any, Any]:
     if isinstance(scalar, arb):
         if not scalar.is_finite():
             raise ValueContractError(f"the ball {scalar} is not finite")
-        mid, rad = _dyadic(scalar.mid()), _dyadic(scalar.rad())
+        mid, rad = scalar.mid().fmpq(), scalar.rad().fmpq()
         return mid - rad, mid + rad
     if isinstance(scalar, Approx):
         value, error = fmpq(*float(scalar.value).as_integer_ratio()), fmpq(*float(scalar.error).as_integer_ratio())
         return value - error, value + error
     raise ValueContractError(f"a value of type {type(scalar).__name__} has no enclosure; see recontrol.claims.values")
-
-
-def _dyadic(point: Any) -> Any:
-    from flint import fmpq
-
-    mantissa, exponent = point.man_exp()
-    return fmpq(mantissa) * fmpq(2) ** int(exponent)
 
 
 @dataclass(frozen=True)

@@ -89,14 +89,7 @@ def _nested(array: Any, convert: Any) -> Any:
 def _ball(value: Any, place: str) -> dict[str, str]:
     if not value.is_finite():
         raise ArtifactError(f"{place} is the ball {value}; artifacts hold finite balls only")
-    return {"mid": _dyadic(value.mid()), "rad": _dyadic(value.rad())}
-
-
-def _dyadic(point: Any) -> str:
-    from flint import fmpq
-
-    mantissa, exponent = point.man_exp()
-    return str(fmpq(mantissa) * fmpq(2) ** int(exponent))
+    return {"mid": str(value.mid().fmpq()), "rad": str(value.rad().fmpq())}
 
 
 def decode(tree: Any) -> Any:
