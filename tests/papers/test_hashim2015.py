@@ -9,7 +9,7 @@ from scipy.linalg import solve_continuous_are
 
 from papers.hashim2015 import analysis, certificates, identities, intervals, loops, recipe
 from papers.hashim2015.quantities.loops import enclosures, sign_overlap
-from papers.hashim2015.readings import formulas, misprints
+from papers.hashim2015.readings import formulas, misprints, sentences
 from papers.hashim2015.synthesis.identifiability import row_of_52
 from papers.hashim2015.synthesis.lqr import EnclosureError, lower_end, moment, upper_end
 from recontrol.claims.identity import equal
@@ -60,9 +60,12 @@ def test_derived_formulas_hold(name):
     assert equal(identity.left, identity.right)
 
 
-@pytest.mark.parametrize("name", sorted(n for n in vars(misprints) if n.startswith(("eq2", "eq3", "eq4", "s24"))))
+MISPRINTED = {**vars(misprints), **vars(sentences)}
+
+
+@pytest.mark.parametrize("name", sorted(n for n in MISPRINTED if n.startswith(("eq2", "eq3", "eq4", "s24"))))
 def test_misprinted_formulas_fail_and_their_corrections_hold(name):
-    result = getattr(misprints, name)()
+    result = MISPRINTED[name]()
     assert not equal(result.value.left, result.value.right)
     assert all(value is not False for key, value in result.evidence.items() if "as printed" not in key)
 

@@ -33,9 +33,10 @@ ORDER = 4
 PITCH_ORDER = 2
 
 
-def _misprint(
+def misprint(
     printed: np.ndarray, derived: np.ndarray, correct: str, correct_form: np.ndarray, numbers: str, **more: Any
 ) -> Result:
+    """The printed form against the derived one; ``correct_form`` stands for ``correct`` and is held against it too."""
     follows = equal(correct_form, derived)
     evidence = {"correct form": correct, "correct form follows": follows, "numbers": numbers, **more}
     return Result(Identity(printed, derived), evidence=evidence)
@@ -48,7 +49,7 @@ def eq21() -> Result:
     error = s.x - s.xh
     more = {"residual is -L C xt": equal(derived - s.A @ error, -(s.L @ s.C) @ error)}
     numbers = "the right version: (54) places the poles of A - LC"
-    return _misprint(
+    return misprint(
         s.A @ error, derived, r"$\dot{\tilde x} = (A - LC)\tilde x$", (s.A - s.L @ s.C) @ error, numbers, **more
     )
 
@@ -146,7 +147,7 @@ def eq39() -> Result:
     derived = reduced_state(s, s.x2, s.y, s.u) - reduced_estimator(s, dy)
     M = s.A22 - s.L_r @ s.A12
     numbers = "the right version: the poles of A22 - L A12 are those of the estimator"
-    return _misprint(
+    return misprint(
         M @ s.xh2, derived, r"$\dot{\tilde x}_2 = (A_{22} - L A_{12})\tilde x_2$", M @ (s.x2 - s.xh2), numbers
     )
 
@@ -161,7 +162,7 @@ def eq40() -> Result:
     printed = M @ s.xh2 + M @ s.xh2 + s.B2 @ s.u + rate
     correct_form = M @ s.xh2 + (s.A21 - s.L_r @ s.A11) @ s.y + (s.B2 - s.L_r @ s.B1) @ s.u + s.L_r @ s.dy
     correct = r"$\dot{\hat x}_2 = (A_{22} - L A_{12})\hat x_2 + (A_{21} - L A_{11}) y + (B_2 - L B_1) u + L\dot y$"
-    return _misprint(printed, derived, correct, correct_form, "the right version, by way of (42)")
+    return misprint(printed, derived, correct, correct_form, "the right version, by way of (42)")
 
 
 def eq43() -> Result:
@@ -171,7 +172,7 @@ def eq43() -> Result:
     derived = -s.K @ estimate
     printed = s.K1 @ s.y - s.K2 @ s.xh2 @ s.y
     first = s.K @ estimate
-    return _misprint(
+    return misprint(
         printed,
         derived,
         r"$u = -K_1 y - K_2\hat x_2$",
@@ -186,7 +187,7 @@ def eq46() -> Result:
     s = symbols(ORDER)
     derived = compensator_rate(s) - corrected_B_r(s) @ s.y
     printed = s.A22 - s.L_r @ s.A12 + (s.B2 - s.L_r @ s.B1) @ s.K2
-    return _misprint(
+    return misprint(
         printed @ s.xc,
         derived,
         r"$A_r = A_{22} - L A_{12} - (B_2 - L B_1) K_2$",
@@ -212,66 +213,6 @@ def eq47_pitch() -> Result:
     s = symbols(PITCH_ORDER)
     printed = corrected_A_r(s) @ s.L_r + s.A21 - s.L_r @ s.A11 - (s.B2 - s.L_r @ s.B1) @ s.K2
     return Result(Identity(printed @ s.y, compensator_rate(s) - corrected_A_r(s) @ s.xc))
-
-
-def s24_x1dot() -> Result:
-    """x1' = y together with (28), x1 = y: the first row of (4) is not x1."""
-    s = symbols(ORDER)
-    rate = output_rate(s, s.x[1:], s.x[:1], s.u)
-    return _misprint(s.x[:1], state(s, s.x, s.u)[:1], r"$\dot x_1 = \dot y$, which (30) has", rate, "not used")
-
-
-def s24_swap() -> Result:
-    """Estimate less state, with (29) and (37) in the roles that the sentence gives them, against the error of (38)."""
-    s = symbols(ORDER)
-    dy = output_rate(s, s.x2, s.y, s.u)
-    named_state, named_estimate = reduced_estimator(s, dy), reduced_state(s, s.x2, s.y, s.u)
-    derived = (s.A22 - s.L_r @ s.A12) @ (s.x2 - s.xh2)
-    return _misprint(
-        named_state - named_estimate,
-        derived,
-        "(29) is the state and (37) the estimate",
-        named_estimate - named_state,
-        "not used",
-    )
-
-
-def s24_subst() -> Result:
-    """u of (43) put into (4), rows of x2, against the compensator's rate; put into (42) it gives (44)."""
-    s = symbols(ORDER)
-    u = control(s, s.xc + s.L_r @ s.y)
-    derived = corrected_A_r(s) @ s.xc + corrected_B_r(s) @ s.y
-    return _misprint(
-        state(s, stack(s.y, s.x2), u)[1:],
-        derived,
-        "the substitution goes into (42)",
-        compensator_rate(s),
-        "the right version: (66), (67) are (42) with (43)",
-    )
-
-
-def s24_names() -> Result:
-    """x_c of (44) has the rate of x_3 of (41): one state. x_b of (43) taken for the same one contradicts (49).
-
-    K2 x_b in (43) gives D_r = -K1 - K2 L only if x_b is the estimate xh2 = x_3 + L y.
-    """
-    s = symbols(ORDER)
-    one_state = -s.K1 @ s.y - s.K2 @ s.xc
-    derived = -s.K2 @ s.xc + (-s.K1 - s.K2 @ s.L_r) @ s.y
-    return _misprint(
-        one_state,
-        derived,
-        r"$x_c = x_3 = \hat x_2 - L y$, while $x_b = \hat x_2$",
-        control(s, s.xc + s.L_r @ s.y),
-        "the right version: (69) is -K1 - K2 L",
-        **{"x_c and x_3 have one rate": equal(compensator_rate(s), derived_rate())},
-    )
-
-
-def derived_rate() -> np.ndarray:
-    """A_r xc + B_r y."""
-    s = symbols(ORDER)
-    return corrected_A_r(s) @ s.xc + corrected_B_r(s) @ s.y
 
 
 def eq46_loop() -> Result:

@@ -162,9 +162,7 @@ def thm1_P_definite() -> Identity:
 
 
 def thm1_equiv(certificates: Any) -> Result:
-    """Between two drift bounds (13) with diagonal multipliers has a point, so (16) holds for all F; with two scalars
-    none.
-    """
+    """Between two drift bounds diagonal multipliers give (13) a point, so (16) holds for all F; two scalars none."""
     limits = {
         "(13), diagonal multipliers: a point up to delta_m": drift_limit(certificates, "drift-diag-below"),
         "(13), two scalars: none from delta_m": drift_limit(certificates, "drift-one-above"),
