@@ -14,12 +14,7 @@ import numpy as np
 
 from recontrol.lmi.blocks import block, equal, eye, he, negative, nonnegative, positive
 
-FAULTS = ("sign-P3", "no-AT2", "no-S2", "no-S3", "S2-twice", "no-Pi24")
-DERIVED, PRINTED = "", " ".join(FAULTS)
-# In alphabetical order, as a certificate file lists them.
-UNKNOWNS = ("P1", "P2", "P3", "S1", "S2", "S3", "T1", "T2")
-
-WORDS = {
+FAULTS = {
     "sign-P3": "block 12: -(h - tau) P3 for +(h - tau) P3",
     "no-AT2": "block 12: A'T2 is missing",
     "no-S2": "block 12: S2 is missing",
@@ -27,6 +22,10 @@ WORDS = {
     "S2-twice": "block 23: S2 + S2' for S2'",
     "no-Pi24": "block 24: zero for tau S2'",
 }
+"""Where the print departs from the derivation: name -> what stands there."""
+DERIVED, PRINTED = "", " ".join(FAULTS)
+# In alphabetical order, as a certificate file lists them.
+UNKNOWNS = ("P1", "P2", "P3", "S1", "S2", "S3", "T1", "T2")
 
 
 def functional(

@@ -78,41 +78,51 @@ def _ends(synthesis: Any) -> dict[str, float]:
     return rows
 
 
-def quantities(data: Any, synthesis: Any, certificates: Any) -> dict[str, Any]:
-    """Quantities of this topic."""
-    solved, digits, repaired = _solved(synthesis), synthesis["digits"], synthesis["repaired"]
-    has_point = {name: entry for name, entry in solved.items() if "X" in entry}
-    shown = {
-        f"{M}_units_from_print": {n: np.asarray(e["units_from_print"][M]) for n, e in has_point.items()} for M in "XYK"
-    }
+def _solutions(synthesis: Any, certificates: Any) -> dict[str, Any]:
+    """What was solved: optimal values and gains, their spread, what was varied."""
+    solved = {name: entry for name, entry in _solved(synthesis).items() if "X" in entry}
     spread = {f"SF_{c}": synthesis["SF"][c]["solvers"]["spread"] for c in ("R2", "R1")}
     spread |= {f"CO_{n}": e["solvers"]["spread"] for n, e in synthesis["CO"].items() if n != "X33"}
+    units = synthesis["units_matter"]
     return {
-        "rho": {name: float(entry["rho"]) for name, entry in has_point.items()},
-        "eps": {name: float(entry["eps"]) for name, entry in has_point.items() if entry["eps"] is not None},
+        "rho": {name: float(entry["rho"]) for name, entry in solved.items()},
+        "eps": {name: float(entry["eps"]) for name, entry in solved.items() if entry["eps"] is not None},
         "rho_enclosure": _enclosures(certificates),
         "rho_spread": {name: None if v is None else float(v) for name, v in spread.items()},
-        "K_found": {name: np.asarray(entry["K"]) for name, entry in has_point.items()},
-        **shown,
+        "K_found": {name: np.asarray(entry["K"]) for name, entry in solved.items()},
+        **{
+            f"{M}_units_from_print": {n: np.asarray(e["units_from_print"][M]) for n, e in solved.items()} for M in "XYK"
+        },
         "gain_change": {n: float(e["gain_change"]) for n, e in synthesis["variants"].items() if "gain_change" in e},
         "z_freedom": _ends(synthesis),
         "w_minimum": synthesis["SF"]["min_w"]["w"],
         "rho_fixed_gain": {name: entry["rho"] for name, entry in synthesis["fixed"].items()},
+        "si_answers": {name: entry["rho"] for name, entry in units.items()},
+        "si_words": {name: f"{entry['words'][:60]}; {entry['outcome']}" for name, entry in units.items()},
+    }
+
+
+def _digits(synthesis: Any) -> dict[str, Any]:
+    """What the printed digits admit."""
+    digits, joint = synthesis["digits"], synthesis["joint"]
+    return {
         "rho_of_digits": {k: float(digits[k]) for k in ("rho_low", "rho_high", "rho_high_limits_only")},
         "margin_of_digits": float(digits["mu"]),
         "smallest_V0": {case: float(digits[case]["smallest_V0"]) for case in ("e0_zero", "e0_velocity", "e0_full")},
-        "gain_multiple": float(synthesis["joint"]["gain"]["multiple"]),
-        "joint_margin": {
-            n: float(e["margin"]) for n, e in synthesis["joint"].items() if e is not None and "margin" in e
-        },
+        "gain_multiple": float(joint["gain"]["multiple"]),
+        "joint_margin": {n: float(e["margin"]) for n, e in joint.items() if e is not None and "margin" in e},
         "n_interval": _intervals(synthesis),
         "observers_compatible": ", ".join(synthesis["arrangements"]["survivors"]),
+    }
+
+
+def _bounds(data: Any, synthesis: Any, certificates: Any) -> dict[str, Any]:
+    """What the repaired theorem bounds, for the printed and for other gains."""
+    repaired = synthesis["repaired"]
+    spread = {name: _spread(entry["solvers"]) for name, entry in repaired["cost"].items()}
+    return {
         "cost_bound": {name: float(entry["bound"]) for name, entry in repaired["cost"].items()},
-        "cost_bound_spread": {
-            name: spread
-            for name, entry in repaired["cost"].items()
-            if (spread := _spread(entry["solvers"])) is not None
-        },
+        "cost_bound_spread": {name: value for name, value in spread.items() if value is not None},
         "thrust_bound": {name: float(v) for name, v in repaired["thrust"].items()},
         **_certified(data, certificates),
         "bounds_other_gains": {
@@ -122,8 +132,9 @@ def quantities(data: Any, synthesis: Any, certificates: Any) -> dict[str, Any]:
             for what, v in entry.items()
         },
         "same_P": str(repaired["same"]["words"]),
-        "si_answers": {name: entry["rho"] for name, entry in synthesis["units_matter"].items()},
-        "si_words": {
-            name: f"{entry['words'][:60]}; {entry['outcome']}" for name, entry in synthesis["units_matter"].items()
-        },
     }
+
+
+def quantities(data: Any, synthesis: Any, certificates: Any) -> dict[str, Any]:
+    """Quantities of this topic."""
+    return _solutions(synthesis, certificates) | _digits(synthesis) | _bounds(data, synthesis, certificates)

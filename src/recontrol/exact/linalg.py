@@ -12,7 +12,7 @@ import numpy as np
 from flint import arb, arb_mat, fmpq
 
 from recontrol.exact.ball import assert_rigorous, has_balls, to_ball
-from recontrol.exact.rational import from_fmpq_mat, identity, kron, to_fmpq_mat, zeros
+from recontrol.exact.rational import from_fmpq_mat, identity, to_fmpq_mat, zeros
 
 
 class SingularError(ValueError):
@@ -191,11 +191,3 @@ def lyapunov(A: np.ndarray, Q: np.ndarray) -> np.ndarray:
     for (i, j), k in place.items():
         out[i, j] = x[k, 0]
     return out
-
-
-def stein(A: np.ndarray, Q: np.ndarray) -> np.ndarray:
-    """Symmetric X (n, n) with A X A' - X + Q = 0, for symmetric Q; exact or enclosed. Raises SingularError."""
-    n = _check_square(A, "A")
-    check_symmetric(Q, "Q")
-    X = solve(kron(A, A) - identity(n * n), -Q.reshape(n * n, 1)).reshape(n, n)
-    return (X + X.T) * fmpq(1, 2)

@@ -105,12 +105,6 @@ def diagonal(entries: Iterable[ExactLike]) -> np.ndarray:
     return out
 
 
-def kron(A: np.ndarray, B: np.ndarray) -> np.ndarray:
-    """Kronecker product of two object matrices, (m p, n q) for (m, n) and (p, q)."""
-    (m, n), (p, q) = A.shape, B.shape
-    return (A[:, None, :, None] * B[None, :, None, :]).reshape(m * p, n * q)
-
-
 def to_float(A: Any) -> Any:
     """Nearest double of an fmpq, or of each entry of an exact array (float64 array of the same shape)."""
     if isinstance(A, np.ndarray):
