@@ -1,31 +1,43 @@
 # Robustness ensembles: seeded chunks, merged into distributions. `all` takes a few chunks, `campaign` all of them.
+SMALL = (
+    config["ensemble_chunks"],
+    config["campaign_batch"],
+    config["ensemble_chunks"],
+)
+LARGE = (
+    config["campaign_chunks"],
+    config["campaign_batch"],
+    config["ensemble_chunks"],
+)
 
 
-# One chunk of one campaign: always the same members, whatever the size of the campaign.
-rule chunk:
+# Some chunks of one campaign: always the same members, whatever the size of the campaign and of its jobs.
+rule chunks:
     input:
         COMMON,
         graph.before("campaign"),
         code=graph.code("campaign"),
         paper="papers/{paper}/paper.yaml",
     output:
-        "results/{paper}/ensemble/{name}/chunk-{chunk}.json",
+        "results/{paper}/ensemble/{name}/chunks-{first}-{last}.json",
     log:
-        "run/log/{paper}/ensemble/{name}/chunk-{chunk}.log",
+        "run/log/{paper}/ensemble/{name}/chunks-{first}-{last}.log",
     benchmark:
-        "run/benchmark/{paper}/ensemble/{name}/chunk-{chunk}.tsv"
+        "run/benchmark/{paper}/ensemble/{name}/chunks-{first}-{last}.tsv"
     wildcard_constraints:
-        chunk=r"\d{5}",
+        first=r"\d+",
+        last=r"\d+",
     message:
-        "{wildcards.paper}: {wildcards.name}, chunk {wildcards.chunk}"
+        "{wildcards.paper}: {wildcards.name}, chunks {wildcards.first} to {wildcards.last}"
     shell:
-        "python -m recontrol.pipeline campaign chunk {wildcards.paper} {wildcards.name} {wildcards.chunk} > {log} 2>&1"
+        "python -m recontrol.pipeline campaign chunks {wildcards.paper} {wildcards.name}"
+        " {wildcards.first} {wildcards.last} > {log} 2>&1"
 
 
 # The distributions that every run shows.
 rule ensemble:
     input:
-        chunks=graph.chunks(config["ensemble_chunks"]),
+        chunks=graph.chunks(*SMALL),
         code=graph.code("campaign"),
     output:
         multiext(
@@ -34,17 +46,17 @@ rule ensemble:
     log:
         "run/log/{paper}/ensemble/{name}.log",
     params:
-        chunks=config["ensemble_chunks"],
+        sizes=SMALL,
     message:
         "{wildcards.paper}: {wildcards.name}, distributions"
     shell:
-        "python -m recontrol.pipeline campaign merge {wildcards.paper} {wildcards.name} {params.chunks} ensemble > {log} 2>&1"
+        "python -m recontrol.pipeline campaign merge {wildcards.paper} {wildcards.name} ensemble {params.sizes} > {log} 2>&1"
 
 
 # The distributions of the large campaign.
 rule merge:
     input:
-        chunks=graph.chunks(config["campaign_chunks"]),
+        chunks=graph.chunks(*LARGE),
         code=graph.code("campaign"),
     output:
         multiext(
@@ -53,11 +65,11 @@ rule merge:
     log:
         "run/log/{paper}/campaign/{name}.log",
     params:
-        chunks=config["campaign_chunks"],
+        sizes=LARGE,
     message:
         "{wildcards.paper}: {wildcards.name}, large campaign"
     shell:
-        "python -m recontrol.pipeline campaign merge {wildcards.paper} {wildcards.name} {params.chunks} campaign > {log} 2>&1"
+        "python -m recontrol.pipeline campaign merge {wildcards.paper} {wildcards.name} campaign {params.sizes} > {log} 2>&1"
 
 
 # All large campaigns: `snakemake --cores 2 campaign`; it resumes where it was stopped.
@@ -72,6 +84,6 @@ if (
     and "campaign" in sys.argv
     and not guard.only_looking(sys.argv[1:])
 ):
-    from recontrol.pipeline.campaign import watch
+    from recontrol.pipeline.progress import watch
 
-    watch(graph.campaigns(), config["campaign_chunks"])
+    watch(graph.campaigns(), LARGE)

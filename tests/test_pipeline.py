@@ -44,7 +44,7 @@ def test_edit_of_an_imported_module_reruns_exactly_what_depends_on_it(toy):
         "toy2024: verdicts",
         "toy2024: quantities",
         "toy2024: review",
-        "toy2024: poles, chunk 00000",
+        "toy2024: poles, chunks 000000 to 000000",
         "toy2024: poles, distributions",
     }
 
@@ -272,13 +272,15 @@ def test_closure_follows_function_level_and_relative_imports(built_toy):
 
 
 def test_campaign_resumes_and_contains_the_small_ensemble(toy):
-    toy.edit("config/campaign.yaml", "campaign_chunks: 100", "campaign_chunks: 3")
-    toy.snakemake("results/toy2024/ensemble/poles/chunk-00001.json")
+    toy.edit("config/campaign.yaml", "campaign_chunks: 100", "campaign_chunks: 5")
+    toy.edit("config/campaign.yaml", "campaign_batch: 20", "campaign_batch: 2")
+    toy.snakemake("results/toy2024/ensemble/poles/chunks-000001-000001.json")
     ran = jobs(toy.snakemake("campaign").stdout)
-    assert ran == {"toy2024: poles, chunk 00002", "toy2024: poles, large campaign"}
+    first, second = ("toy2024: poles, chunks 000002 to 000003", "toy2024: poles, chunks 000004 to 000004")
+    assert ran == {first, second, "toy2024: poles, large campaign"}
     large = json.loads((toy.folder / "results/toy2024/campaign/poles.json").read_text())["outcomes"]["decay"]
     small = json.loads((toy.folder / "results/toy2024/ensemble/poles.json").read_text())["outcomes"]["decay"]
-    assert (small["count"], large["count"]) == (1000, 3000)
+    assert (small["count"], large["count"]) == (1000, 5000)
     assert large["minimum"] <= small["minimum"]
     assert large["minimum"] >= large["bound"]
 
@@ -292,3 +294,42 @@ def test_a_function_of_the_package_comes_before_one_of_its_topics(tmp_path):
     assert closure.home_of("p2024", "quantities", "quantities", tmp_path) == "papers.p2024.quantities"
     assert closure.home_of("p2024", "quantities", "table", tmp_path) == "papers.p2024.quantities.design"
     assert closure.home_of("p2024", "quantities", "missing", tmp_path) == "papers.p2024.quantities"
+
+
+def test_size_of_the_jobs_of_a_campaign_changes_no_byte(toy):
+    toy.edit("config/campaign.yaml", "campaign_chunks: 100", "campaign_chunks: 5")
+    made = []
+    for batch in ("campaign_batch: 20", "campaign_batch: 2"):
+        toy.edit("config/campaign.yaml", "campaign_batch: 20", batch)
+        toy.snakemake("campaign")
+        made.append({path.name: path.read_bytes() for path in (toy.folder / "results/toy2024/campaign").iterdir()})
+    assert made[0] == made[1]
+
+
+def test_report_shows_a_large_campaign_once_it_is_there_and_says_when_it_is_overtaken(toy):
+    toy.edit("config/campaign.yaml", "campaign_chunks: 100", "campaign_chunks: 2")
+    page = toy.folder / "results/report/toy2024.html"
+    assert "Large campaign" not in page.read_text()
+    toy.snakemake("campaign")
+    ran = jobs(toy.snakemake("all").stdout)
+    assert not [name for name in ran if "chunk" in name or "campaign" in name]
+    assert "Large campaign: 2000 trajectories" in page.read_text()
+    assert "Out of date" not in page.read_text()
+    assert NOTHING in toy.snakemake("all").stdout
+    toy.edit("papers/toy2024/campaign.py", "0.9, 1.1", "0.95, 1.05")
+    ran = jobs(toy.snakemake("all").stdout)
+    assert "toy2024: poles, large campaign" not in ran
+    assert "Out of date: code or paper folder were edited since" in page.read_text()
+
+
+def test_a_trajectory_beyond_its_proven_bound_fails_the_merge(toy):
+    toy.edit("papers/toy2024/campaign.py", "- 1.1 *", "- 1.0 *")
+    output = toy.snakemake("all", check=False).stdout
+    assert re.search(r"outcome 'decay': trajectory \d+ \(chunk 0, member \d+, seed 2024\) gives", output)
+    assert "the end of the interval" in output
+
+
+def test_a_campaign_has_to_state_what_is_proven_of_every_outcome(toy):
+    toy.edit("papers/toy2024/campaign.py", '{"decay": Bound', '{"delay": Bound')
+    output = toy.snakemake("all", check=False).stdout
+    assert "states ['delay'], paper.yaml names the outcomes ['decay']" in output

@@ -11,8 +11,8 @@ from typing import Any
 import numpy as np
 
 from recontrol.campaign.linear import abscissa, integral_square, settling_and_peak
+from recontrol.campaign.proven import Bound
 
-from . import sources
 from .simulation.regulator import BAND
 
 STEP, SAMPLES = 0.1, 1601  # s
@@ -58,14 +58,11 @@ def full_order(rng: Any, count: int, data: Any) -> Outcomes:
     return outcomes(loop, np.hstack([x0, x0]), np.append(C[0], np.zeros(4)))
 
 
-def full_order_bounds(data: Any) -> dict[str, float | None]:
-    """Decay and integral over both boxes and every start, proven in balls."""
-    from recontrol.campaign.bounds import decay_bound, integral_bound
-    from recontrol.exact.rational import identity, zeros
+def full_order_bounds(data: Any) -> dict[str, Bound]:
+    """Both boxes and every start."""
+    from .campaign_bounds import full_order
 
-    M = sources.problem_data(data, sources.FULL_BOX)["M"]
-    row, both = np.hstack([data["C_yaw"], zeros(1, 4)]), np.vstack([identity(4), identity(4)])
-    return {"abscissa": decay_bound(M), "ise": integral_bound(M, row, both)}
+    return full_order(data)
 
 
 def reduced_members(rng: Any, count: int, data: Any, measured: np.ndarray) -> np.ndarray:
@@ -83,11 +80,11 @@ def reduced_x1(rng: Any, count: int, data: Any) -> Outcomes:
     return outcomes(loop, x0, np.append(data.float("C_yaw")[0], np.zeros(3)))
 
 
-def reduced_x1_bounds(certificates: Any) -> dict[str, float]:
-    """Stability over the whole box, as certificate `box-x1` proves."""
-    from recontrol.lmi.verify import check
+def reduced_x1_bounds(data: Any) -> dict[str, Bound]:
+    """The box of (66)-(69) and every start."""
+    from .campaign_bounds import reduced_x1
 
-    return {"abscissa": 0.0} if check(certificates["box-x1"]).holds else {}
+    return reduced_x1(data)
 
 
 def reduced_y(rng: Any, count: int, data: Any) -> Outcomes:
@@ -97,11 +94,11 @@ def reduced_y(rng: Any, count: int, data: Any) -> Outcomes:
         return {"abscissa": rate, "doubling": np.where(rate > 0, np.log(2) / rate, np.inf)}
 
 
-def reduced_y_bounds(data: Any, model: Any) -> dict[str, float]:
-    """Instability of every member: a characteristic coefficient is negative over the whole box."""
-    from .quantities.loops import negative_coefficient
+def reduced_y_bounds(data: Any) -> dict[str, Bound]:
+    """Instability of every member."""
+    from .campaign_bounds import reduced_y
 
-    return {"abscissa": 0.0} if negative_coefficient(data, model) < 0 else {}
+    return reduced_y(data)
 
 
 def rounded_plant(rng: Any, count: int, model: Any, synthesis: Any, axis: str) -> Outcomes:
@@ -135,33 +132,15 @@ def plant_roll(rng: Any, count: int, model: Any, synthesis: Any) -> Outcomes:
     return rounded_plant(rng, count, model, synthesis, "roll")
 
 
-def plant_bounds(model: Any, synthesis: Any, axis: str) -> dict[str, float | None]:
-    """Decay of both loops over the coefficients' rounding, proven in balls: roots of ``a d - b n`` for u = (n/d) y."""
-    from flint import arb_poly, fmpq
+def plant_yaw_bounds(model: Any, synthesis: Any) -> dict[str, Bound]:
+    """The loops of yaw, every start."""
+    from .campaign_bounds import rounded_plant
 
-    from recontrol.campaign.bounds import root_bound
-    from recontrol.exact.ball import ball
-    from recontrol.exact.polynomial import charpoly
-    from recontrol.exact.rational import from_float
-
-    half = fmpq(*float(COEFFICIENT_HALF_UNIT).as_integer_ratio())
-    a, b = ([ball(x, half) if x != 0 else x for x in model[axis][name].tolist()] for name in ("a", "b"))
-    a[-1] = model[axis]["a"][-1]  # monic, not a printed coefficient
-    found = {}
-    gains = synthesis["gains"][axis]
-    for name, design in (("full", gains["full"]["exact"]), ("reduced", gains["corrected"])):
-        A_c, B_c, C_c, D_c = (from_float(np.atleast_2d(design[key])) for key in ("A", "B", "C", "D"))
-        d = charpoly(A_c)
-        n = d - charpoly(A_c + B_c @ C_c) + d * D_c[0, 0]
-        found[f"{name}-abscissa"] = root_bound(arb_poly(a) * arb_poly(d) - arb_poly(b) * arb_poly(n))
-    return found
+    return rounded_plant(model, synthesis, "yaw")
 
 
-def plant_yaw_bounds(model: Any, synthesis: Any) -> dict[str, float | None]:
-    """Proven decay of the loops of yaw."""
-    return plant_bounds(model, synthesis, "yaw")
+def plant_roll_bounds(model: Any, synthesis: Any) -> dict[str, Bound]:
+    """The loops of roll, every start."""
+    from .campaign_bounds import rounded_plant
 
-
-def plant_roll_bounds(model: Any, synthesis: Any) -> dict[str, float | None]:
-    """Proven decay of the loops of roll."""
-    return plant_bounds(model, synthesis, "roll")
+    return rounded_plant(model, synthesis, "roll")

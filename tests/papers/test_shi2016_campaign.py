@@ -6,7 +6,6 @@ import numpy as np
 import pytest
 
 from papers.shi2016 import campaign, plant
-from papers.shi2016.certificates.bounds import decay_ext
 from recontrol import paper
 from recontrol.pipeline.campaign import generator
 from tests.conftest import ROOT
@@ -33,16 +32,23 @@ def test_outcomes_are_those_of_paper_yaml(name):
     assert all(values.shape == (COUNT,) for values in found.values())
 
 
-def test_no_changed_gain_decays_slower_than_is_proven():
-    bound = campaign.gain_ext_bounds({"decay-ext": decay_ext(DATA)})["abscissa"]
-    assert bound == -0.15
-    assert np.all(campaign.gain_ext(generator(2, 0), COUNT, DATA)["abscissa"] < bound)
+@pytest.mark.parametrize("name", ["gain-ext", "gain-trad", "inertia-ext"])
+def test_no_member_exceeds_what_is_proven(name):
+    proven = getattr(campaign, f"{name.replace('-', '_')}_bounds")(DATA)
+    found = getattr(campaign, name.replace("-", "_"))(generator(2, 0), COUNT, DATA)
+    assert set(proven) == set(found)
+    for outcome, bound in proven.items():
+        assert (bound.value is None) == (name == "gain-trad" and outcome != "abscissa")
+        if bound.value is not None:
+            assert found[outcome].max() <= bound.value, outcome
 
 
-def test_no_rounded_inertia_decays_slower_than_is_proven():
-    bound = campaign.inertia_ext_bounds(DATA)["abscissa"]
-    assert bound < 0
-    assert np.all(campaign.inertia_ext(generator(2, 0), COUNT, DATA)["abscissa"] < bound)
+def test_bounds_of_the_changed_gain_are_near_what_is_found():
+    proven = campaign.gain_ext_bounds(DATA)
+    found = campaign.gain_ext(generator(2, 0), 2000, DATA)
+    for outcome, share in (("peak", 0.9), ("energy", 0.7), ("settling", 0.6)):
+        assert found[outcome].max() > share * proven[outcome].value
+    assert campaign.gain_trad_bounds(DATA)["abscissa"].value == pytest.approx(0.093, abs=2e-4)
 
 
 @pytest.mark.parametrize(("name", "gain"), [("gain_ext", "ext"), ("gain_trad", "trad"), ("inertia_ext", "ext")])

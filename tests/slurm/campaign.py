@@ -23,8 +23,7 @@ import cluster
 
 ROOT = Path(__file__).resolve().parents[2]
 TREE = ("Snakefile", "rules", "config", "profiles", "environment.lock", "src")
-SIZES = {"chunk": 500, "campaign_chunks": 16}
-GROUP = 4  # chunks a job: four jobs a campaign
+SIZES = {"chunk": 500, "campaign_chunks": 16, "campaign_batch": 4}  # four jobs a campaign, and one for the small one
 LIMIT = 1500.0
 
 
@@ -59,7 +58,7 @@ def start(folder: Path, *options: str) -> subprocess.Popen[str]:
 def submit(folder: Path) -> subprocess.Popen[str]:
     """Start the campaign through the cluster, with the project's own profile."""
     options = ("--profile", "profiles/slurm", "--default-resources", "slurm_partition=main", "mem_mb=500", "runtime=20")
-    return start(folder, *options, "--group-components", f"chunks={GROUP}", "--latency-wait", "10")
+    return start(folder, *options, "--latency-wait", "10")
 
 
 def wait(run: subprocess.Popen[str], folder: Path, wanted: bool) -> None:
@@ -74,7 +73,7 @@ def kill_one(folder: Path) -> str:
     end = time.monotonic() + LIMIT
     while time.monotonic() < end:
         jobs = cluster.running_jobs()
-        if jobs and list(folder.glob("results/*/ensemble/*/chunk-*.json")):
+        if jobs and list(folder.glob("results/*/ensemble/*/chunks-*.json")):
             cluster.cancel(jobs[0])
             return jobs[0]
         time.sleep(0.2)
@@ -109,8 +108,8 @@ def main(paper: str = "toy2024") -> None:
                 raise
             print(f"cluster run: job {job} killed after {time.monotonic() - begin:.0f} s", flush=True)
             wait(run, remote, False)
-            kept = len(list(remote.glob("results/*/ensemble/*/chunk-*.json")))
-            print(f"cluster run ended with an error as it should; {kept} chunks are there", flush=True)
+            kept = len(list(remote.glob("results/*/ensemble/*/chunks-*.json")))
+            print(f"cluster run ended with an error as it should; {kept} jobs of chunks are kept", flush=True)
             begin = time.monotonic()
             wait(submit(remote), remote, True)
             print(f"resumed run: {time.monotonic() - begin:.0f} s", flush=True)

@@ -12,6 +12,8 @@ from typing import Any
 from recontrol.campaign.sketch import Sketch
 
 MARKED = ("0.05", "0.5", "0.95")
+REACH = 2.0
+"""How many widths of the distribution a bound may lie away and still be drawn as a line."""
 
 
 def draw(content: Mapping[str, Any]) -> tuple[Any, dict[str, tuple[Any, Any]]]:
@@ -62,9 +64,19 @@ def _panel(ax: Any, name: str, row: Mapping[str, Any]) -> dict[str, tuple[Any, A
         curves[f"{name}: worst"] = ([sketch.maximum], [1.0]) if sketch.worst == "max" else ([sketch.minimum], [0.0])
         ax.plot(*curves[f"{name}: worst"], label="worst found", **plotting.SERIES[1].points)
     if row["bound"] is not None:
-        ax.axvline(row["bound"], label="proven bound", **plotting.SERIES[3].line)
+        _mark(ax, row["bound"], sketch.minimum, sketch.maximum)
         curves[f"{name}: bound"] = ([row["bound"]] * 2, [0.0, 1.0])
     return curves
+
+
+def _mark(ax: Any, bound: float, low: float, high: float) -> None:
+    """The proven bound: a line, or its value at the margin where a line would squeeze the distribution low..high."""
+    from recontrol import plotting
+
+    if low - REACH * (high - low) <= bound <= high + REACH * (high - low):
+        ax.axvline(bound, label="proven bound", **plotting.SERIES[3].line)
+    else:
+        ax.text(0.98, 0.18, f"proven bound {bound:.3g}", transform=ax.transAxes, ha="right")
 
 
 def _legend(fig: Any) -> None:

@@ -8,22 +8,22 @@ Chunk k always draws the same members, whatever the size of the campaign and the
 from __future__ import annotations
 
 import argparse
-import sys
+import math
 import tempfile
-import threading
-import time
 from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 
+from recontrol.campaign.proven import Bound
 from recontrol.campaign.sketch import Sketch
 from recontrol.errors import StageError, UnknownNameError
 from recontrol.paper import Paper
 from recontrol.pipeline import inputs, job, store
 from recontrol.pipeline.encode import dumps
-from recontrol.pipeline.layout import chunk_file, distribution_file
+from recontrol.pipeline.layout import chunk_ranges, chunks_file, distribution_file
+from recontrol.pipeline.progress import progress
 
 LEVELS = (0.01, 0.05, 0.25, 0.5, 0.75, 0.95, 0.99)
 
@@ -33,21 +33,26 @@ def generator(seed: int, chunk: int) -> np.random.Generator:
     return np.random.default_rng(np.random.SeedSequence(seed, spawn_key=(chunk,)))
 
 
-def run_chunk(key: str, name: str, chunk: int) -> None:
-    """Simulate one chunk and publish the sketches of its outcomes."""
+def run_chunks(key: str, name: str, first: int, last: int) -> None:
+    """Simulate the chunks `first` to `last`, one after the other, and publish the merged sketches of their outcomes."""
     paper = job.open_paper(key)
     entry = _entry(paper, name)
     config = inputs.load_config()
-    count = int(config["chunk"])
+    size = int(config["chunk"])
     function = inputs.function_of(key, "campaign", name)
     available = inputs.Inputs(paper, config, inputs.before("campaign"))
-    outcomes = available.call(function, rng=generator(int(entry.seed), chunk), count=count)
-    sketches = sketch_all(outcomes, entry, count, chunk * count, inputs.where(function))
-    content = {"paper": key, "campaign": name, "chunk": chunk, "count": count, "outcomes": sketches}
-    job.publish("campaign", key, name, {chunk_file(key, name, chunk): dumps(content).encode()}, _earlier(paper))
+    merged = {outcome: Sketch(described.worst) for outcome, described in entry.outcomes.items()}
+    for chunk in range(first, last + 1):
+        outcomes = available.call(function, rng=generator(int(entry.seed), chunk), count=size)
+        found = sketch_all(outcomes, entry, size, chunk * size, inputs.where(function))
+        merged = {outcome: merged[outcome].merge(sketch) for outcome, sketch in found.items()}
+    sketches = {outcome: sketch.to_json() for outcome, sketch in merged.items()}
+    content = {"paper": key, "campaign": name, "first": first, "last": last, "chunk": size, "outcomes": sketches}
+    contents = {chunks_file(key, name, first, last): dumps(content).encode()}
+    job.publish("campaign", key, name, contents, _earlier(paper))
 
 
-def sketch_all(outcomes: Any, entry: Any, count: int, first: int, home: str) -> dict[str, Any]:
+def sketch_all(outcomes: Any, entry: Any, count: int, first: int, home: str) -> dict[str, Sketch]:
     """Sketch each outcome. Raises StageError if names or sizes are not those that paper.yaml and the chunk ask for."""
     if not isinstance(outcomes, Mapping) or set(outcomes) != set(entry.outcomes):
         found = sorted(outcomes) if isinstance(outcomes, Mapping) else type(outcomes).__name__
@@ -59,41 +64,60 @@ def sketch_all(outcomes: Any, entry: Any, count: int, first: int, home: str) -> 
             raise StageError(f"{home}: outcome {outcome!r} has shape {array.shape}, expected ({count},)")
         sketch = Sketch(entry.outcomes[outcome].worst)
         sketch.add(array, first)
-        sketches[outcome] = sketch.to_json()
+        sketches[outcome] = sketch
     return sketches
 
 
-def merge(key: str, name: str, chunks: int, target: str) -> None:
-    """Merge the first `chunks` chunks into the distribution of each outcome.
+def merge(key: str, name: str, sizes: tuple[int, int, int], target: str) -> None:
+    """Merge the first chunks into the distribution of each outcome.
 
-    target: `ensemble` (part of every run) or `campaign` (the large one).
+    sizes: the arguments of `chunk_ranges`; target: `ensemble` (part of every run) or `campaign` (the large one). Raises
+    StageError if a trajectory contradicts its proven bound.
     """
     paper = job.open_paper(key)
     entry = _entry(paper, name)
     merged = {outcome: Sketch(described.worst) for outcome, described in entry.outcomes.items()}
-    files = [chunk_file(key, name, chunk) for chunk in range(chunks)]
+    files = [chunks_file(key, name, *ends) for ends in chunk_ranges(*sizes)]
     size = 0
     for path in files:
         content = store.read_json(path)
-        size = int(content["count"])
+        size = int(content["chunk"])
         for outcome in merged:
             merged[outcome] = merged[outcome].merge(Sketch.from_json(content["outcomes"][outcome]))
-    bounds = _bounds(paper, name)
-    rows = {
-        outcome: describe(sketch, bounds.get(outcome))
-        | {"unit": entry.outcomes[outcome].unit, "what": entry.outcomes[outcome].what}
-        for outcome, sketch in merged.items()
-    }
+    bounds = bounds_of(paper, name)
     content = {
         "paper": key,
         "campaign": name,
         "what": entry.what,
         "seed": int(entry.seed),
         "chunk": size,
-        "outcomes": rows,
+        "outcomes": {
+            outcome: describe(sketch, bounds[outcome])
+            | {"unit": entry.outcomes[outcome].unit, "what": entry.outcomes[outcome].what}
+            for outcome, sketch in merged.items()
+        },
     }
+    refuse_contradictions(content)
     contents = {distribution_file(key, name, target): dumps(content).encode(), **_pictures(content, target)}
     job.publish("campaign", key, name, contents, [*files, *_earlier(paper)])
+
+
+def refuse_contradictions(content: Mapping[str, Any]) -> None:
+    """Raise StageError, naming the worst trajectory, if an outcome lies beyond what is proven for every member."""
+    said = []
+    for outcome, row in content["outcomes"].items():
+        bound = Bound(row["bound"], row["bound_by"])
+        value = row["maximum"] if row["worst"] == "max" else row["minimum"]
+        value = math.inf if row["diverged"] or value is None else value
+        if bound.contradicted_by(value, row["worst"]):
+            chunk, member = divmod(row["worst_index"], content["chunk"])
+            said.append(
+                f"outcome {outcome!r}: trajectory {row['worst_index']} (chunk {chunk}, member {member}, seed "
+                f"{content['seed']}) gives {'no finite value' if math.isinf(value) else f'{value!r}'}, beyond the "
+                f"bound {bound.value!r} [{row['unit']}] that is proven for all ({bound.by})"
+            )
+    if said:
+        raise StageError(f"papers/{content['paper']}/campaign.py: campaign {content['campaign']}: " + "; ".join(said))
 
 
 def _pictures(content: Mapping[str, Any], target: str) -> dict[Path, bytes]:
@@ -111,23 +135,30 @@ def _pictures(content: Mapping[str, Any], target: str) -> dict[Path, bytes]:
     return files
 
 
-def describe(sketch: Sketch, bound: Any = None) -> dict[str, Any]:
+def describe(sketch: Sketch, bound: Bound) -> dict[str, Any]:
     """Extremes, bracketed quantiles (null where not finite), the worst trajectory's number, and the proven bound."""
     row = sketch.to_json()
     found = {f"{level:g}": sketch.quantile(level) for level in LEVELS}
     row["quantiles"] = {level: None if ends is None else list(ends) for level, ends in found.items()}
-    row["bound"] = bound
-    return row
+    return row | bound.to_json()
 
 
-def _bounds(paper: Paper, name: str) -> dict[str, Any]:
-    """Proven bounds by outcome, from the function `<name>_bounds` of campaign.py where there is one."""
-    module = inputs.module_of(paper.key, "campaign")
-    function = getattr(module, f"{name.replace('-', '_')}_bounds", None)
-    if function is None:
-        return {}
+def bounds_of(paper: Paper, name: str) -> dict[str, Bound]:
+    """What is proven by outcome, from the function `<name>_bounds` of campaign.py.
+
+    Raises StageError unless it gives a bound, or says why there is none, for every outcome.
+    """
+    function = inputs.function_of(paper.key, "campaign", f"{name}_bounds")
     available = inputs.Inputs(paper, inputs.load_config(), inputs.before("campaign"))
-    return dict(available.call(function))
+    found = available.call(function)
+    wanted = set(_entry(paper, name).outcomes)
+    stated = {outcome for outcome, bound in dict(found).items() if isinstance(bound, Bound)}
+    if stated != wanted:
+        raise StageError(
+            f"{inputs.where(function)}: states {sorted(stated)}, paper.yaml names the outcomes {sorted(wanted)}; "
+            "give each a Bound of recontrol.campaign.proven, or unproven('why')"
+        )
+    return dict(found)
 
 
 def _entry(paper: Paper, name: str) -> Any:
@@ -141,58 +172,28 @@ def _earlier(paper: Paper) -> list[Path]:
     return inputs.earlier(paper, "campaign")
 
 
-def finished(targets: list[str], chunks: int) -> int:
-    """How many chunks of some campaigns (`paper/name`) are there."""
-    names = [target.split("/", 1) for target in targets]
-    return sum(chunk_file(key, name, chunk).exists() for key, name in names for chunk in range(chunks))
-
-
-def progress(targets: list[str], chunks: int, new: int = 0, seconds: float = 0.0) -> str:
-    """How far a campaign has come, and what remains at the pace of the `new` chunks of the last `seconds`."""
-    total, done = len(targets) * chunks, finished(targets, chunks)
-    text = f"campaign: {done} of {total} chunks"
-    if done == total or not new:
-        return text
-    remaining = (total - done) * seconds / new
-    return text + (
-        f", about {remaining:.0f} s remain" if remaining < 120 else f", about {remaining / 60:.0f} min remain"
-    )
-
-
-def watch(targets: list[str], chunks: int, every: float = 20.0) -> None:
-    """Print the progress of the running campaign now and then, from a thread that ends with the process."""
-    begin, first = time.monotonic(), finished(targets, chunks)
-
-    def show() -> None:
-        while True:
-            new = finished(targets, chunks) - first
-            print(progress(targets, chunks, new, time.monotonic() - begin), file=sys.stderr, flush=True)
-            time.sleep(every)
-
-    threading.Thread(target=show, daemon=True).start()
-
-
 def main(arguments: list[str]) -> int:
-    """Command line: chunk PAPER NAME K | merge PAPER NAME CHUNKS TARGET | progress CHUNKS PAPER/NAME ..."""
+    """Command line: chunks PAPER NAME FIRST LAST | merge PAPER NAME TARGET SIZES | progress SIZES PAPER/NAME ...
+
+    SIZES: chunks of the campaign, chunks in a job, chunks of every run.
+    """
     parser = argparse.ArgumentParser(prog="recontrol.pipeline campaign", description=__doc__)
     commands = parser.add_subparsers(dest="command", required=True)
-    chunk = commands.add_parser("chunk")
-    chunk.add_argument("paper")
-    chunk.add_argument("name")
-    chunk.add_argument("chunk", type=int)
-    merging = commands.add_parser("merge")
-    merging.add_argument("paper")
-    merging.add_argument("name")
-    merging.add_argument("chunks", type=int)
+    simulating, merging, showing = (commands.add_parser(name) for name in ("chunks", "merge", "progress"))
+    for command in (simulating, merging):
+        command.add_argument("paper")
+        command.add_argument("name")
+    simulating.add_argument("first", type=int)
+    simulating.add_argument("last", type=int)
     merging.add_argument("target", choices=("ensemble", "campaign"))
-    showing = commands.add_parser("progress")
-    showing.add_argument("chunks", type=int)
+    for command in (merging, showing):
+        command.add_argument("sizes", type=int, nargs=3)
     showing.add_argument("targets", nargs="*")
     options = parser.parse_args(arguments)
-    if options.command == "chunk":
-        run_chunk(options.paper, options.name, options.chunk)
+    if options.command == "chunks":
+        run_chunks(options.paper, options.name, options.first, options.last)
     elif options.command == "merge":
-        merge(options.paper, options.name, options.chunks, options.target)
+        merge(options.paper, options.name, tuple(options.sizes), options.target)
     else:
-        print(progress(options.targets, options.chunks), flush=True)
+        print(progress(options.targets, tuple(options.sizes)), flush=True)
     return 0

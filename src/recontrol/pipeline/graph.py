@@ -8,7 +8,15 @@ from typing import Any
 
 from recontrol.paper import STAGES_WITH_PARTS, Paper
 from recontrol.pipeline.closure import ORDER, code_of, files_of
-from recontrol.pipeline.layout import FIGURE_FORMATS, artifact, chunk_file, distribution_file, figure_file, series_file
+from recontrol.pipeline.layout import (
+    FIGURE_FORMATS,
+    artifact,
+    chunk_ranges,
+    chunks_file,
+    distribution_file,
+    figure_file,
+    series_file,
+)
 
 
 class Graph:
@@ -40,9 +48,10 @@ class Graph:
         return [f"{key}/{name}" for key, paper in self.papers.items() for name in paper.file.campaigns]
 
     @staticmethod
-    def chunks(count: int) -> Callable[[Any], list[str]]:
-        """Input function: the first `count` chunks of the wildcards' campaign."""
-        return lambda wildcards: [str(chunk_file(wildcards.paper, wildcards.name, chunk)) for chunk in range(count)]
+    def chunks(count: int, batch: int, small: int) -> Callable[[Any], list[str]]:
+        """Input function: the first `count` chunks of the wildcards' campaign, a file for each range of them."""
+        ranges = chunk_ranges(count, batch, small)
+        return lambda wildcards: [str(chunks_file(wildcards.paper, wildcards.name, *ends)) for ends in ranges]
 
     def figures(self, key: str) -> list[str]:
         """All files of all figures of a paper."""

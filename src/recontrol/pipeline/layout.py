@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from itertools import pairwise
 from pathlib import Path
 
 FIGURE_FORMATS = ("svg", "pdf", "png", "csv")
@@ -22,9 +23,18 @@ def figure_file(key: str, figure: str, suffix: str) -> Path:
     return Path("figures", key, f"{figure}.{suffix}")
 
 
-def chunk_file(key: str, campaign: str, chunk: int) -> Path:
-    """Sketches of one chunk of a campaign."""
-    return Path("results", key, "ensemble", campaign, f"chunk-{chunk:05d}.json")
+def chunks_file(key: str, campaign: str, first: int, last: int) -> Path:
+    """Merged sketches of the chunks `first` to `last` of a campaign."""
+    return Path("results", key, "ensemble", campaign, f"chunks-{first:06d}-{last:06d}.json")
+
+
+def chunk_ranges(count: int, batch: int, small: int) -> list[tuple[int, int]]:
+    """The first `count` chunks as the ranges (first, last) that one job each simulates.
+
+    Cut at multiples of `batch`, and behind the `small` ones of every run, so that a larger campaign uses what is there.
+    """
+    cuts = sorted({0, count, *(k for k in (small, *range(0, count, batch)) if k < count)})
+    return [(first, after - 1) for first, after in pairwise(cuts)]
 
 
 def distribution_file(key: str, campaign: str, target: str, suffix: str = "json") -> Path:

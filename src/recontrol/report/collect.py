@@ -12,6 +12,7 @@ from typing import Any
 
 import yaml
 
+from recontrol.pipeline import standing
 from recontrol.report import numbers, words
 from recontrol.report.claim import Claim, dicts
 
@@ -126,13 +127,21 @@ class Paper:
 
     @cached_property
     def ensembles(self) -> list[dict[str, Any]]:
-        """Distributions of the robustness campaigns named in paper.yaml, with the picture files that exist."""
-        folder, rows = self.results / "ensemble", []
-        for name in self.about.get("campaigns") or {}:
-            content = read_json(folder / f"{name}.json")
-            files = [suffix for suffix in ("svg", "pdf", "png", "csv") if (folder / f"{name}.{suffix}").is_file()]
-            rows.append({"name": name, "files": files, "content": content if isinstance(content, dict) else None})
-        return rows
+        """Robustness campaigns named in paper.yaml, with the distributions of every run and of a large one."""
+        return [
+            {"name": name, "sizes": [size for target in ("ensemble", "campaign") if (size := self._size(name, target))]}
+            for name in self.about.get("campaigns") or {}
+        ]
+
+    def _size(self, name: str, target: str) -> dict[str, Any] | None:
+        """Distributions of one size of a campaign, the picture files there are, and why it is out of date (or None)."""
+        folder = self.results / target
+        content = read_json(folder / f"{name}.json")
+        if not isinstance(content, dict):
+            return None
+        files = [suffix for suffix in ("svg", "pdf", "png", "csv") if (folder / f"{name}.{suffix}").is_file()]
+        old = standing.overtaken(self.key, name, self.root) if target == "campaign" else None
+        return {"target": target, "files": files, "content": content, "overtaken": old}
 
     @cached_property
     def notes(self) -> str:

@@ -98,8 +98,10 @@ def _copy(paper: Paper, target: Path) -> None:
                 paper.root / "figures" / paper.key / f"{figure['name']}.{suffix}", target / "figures" / paper.key
             )
     for ensemble in paper.ensembles:
-        for suffix in ensemble["files"]:
-            _copy_file(paper.results / "ensemble" / f"{ensemble['name']}.{suffix}", target / "ensembles" / paper.key)
+        for size in ensemble["sizes"]:
+            for suffix in size["files"]:
+                source = paper.results / size["target"] / f"{ensemble['name']}.{suffix}"
+                _copy_file(source, target / f"{size['target']}s" / paper.key)
     for name in paper.certificates:
         _copy_file(paper.results / "certificates" / f"{name}.json", target / "certificates" / paper.key)
 

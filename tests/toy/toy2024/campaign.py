@@ -9,4 +9,6 @@ def poles(rng, count, model, synthesis):
 
 
 def poles_bounds(model, synthesis):
-    return {"decay": float(synthesis["gain"]["k"]) - 1.1 * float(model["a"])}
+    from recontrol.campaign.proven import Bound
+
+    return {"decay": Bound(float(synthesis["gain"]["k"]) - 1.1 * float(model["a"]), "the end of the interval", "float")}
