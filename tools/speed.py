@@ -1,8 +1,8 @@
 """Time the chain from nothing, without change and after single edits; write the marked section of docs/performance.md.
 
-    python tools/speed.py
+    python tools/speed.py [FOLDER]
 
-Works in a copy of the tree. Processor time of the jobs comes from their records (run/provenance), that of the whole run
+Works in a copy of the tree, in an empty FOLDER that is kept or else in a temporary one. Processor time of the jobs comes from their records (run/provenance), that of the whole run
 from the operating system. Run it on a quiet machine: wall times are compared with each other.
 """
 
@@ -125,10 +125,11 @@ def write(text):
     PAGE.write_text(page)
 
 
-def main():
+def main(arguments):
     """Measure and write; exit code 1 if the cold run takes longer than its jobs allow."""
     with tempfile.TemporaryDirectory() as place:
-        folder = Path(place)
+        folder = Path(arguments[0] if arguments else place).resolve()
+        folder.mkdir(exist_ok=True)
         copy(folder)
         wall, ran = run(folder)
         print(f"cold: {wall:.0f} s, {len(ran)} jobs", flush=True)
@@ -147,4 +148,4 @@ def main():
 
 
 if __name__ == "__main__":
-    sys.exit(main())
+    sys.exit(main(sys.argv[1:]))
