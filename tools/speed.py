@@ -2,8 +2,9 @@
 
     python tools/speed.py [FOLDER]
 
-Works in a copy of the tree, in an empty FOLDER that is kept or else in a temporary one. Processor time of the jobs comes from their records (run/provenance), that of the whole run
-from the operating system. Run it on a quiet machine: wall times are compared with each other.
+Works in a copy of the tree, in an empty FOLDER that is kept or else in a temporary one. Processor time of the jobs
+comes from their records (run/provenance), that of the whole run from the operating system. Run it on a quiet machine:
+wall times are compared with each other.
 """
 
 import json
@@ -25,10 +26,10 @@ ALLOWED = 1.5
 EDITS = {
     "nothing": None,
     "one topic of figures": "papers/wan2014/figures/published.py",
-    "one topic of readings": "papers/wan2014/readings/__init__.py",
+    "one topic of readings": "papers/wan2014/readings/gains.py",
     "claims.yaml of one paper": "papers/wan2014/claims.yaml",
     "NOTES.md of one paper": "papers/wan2014/NOTES.md",
-    "simulation of one paper": "papers/hashim2015/simulation/__init__.py",
+    "simulation of one paper": "papers/hashim2015/simulation/limits.py",
     "model of one paper": "papers/hashim2015/model.py",
     "the figure style": "src/recontrol/plotting.py",
 }
