@@ -32,7 +32,7 @@ def test_every_changed_digit_changes_the_verdict():
     entries = [dataclasses.asdict(entry) for entry in outcome.entries]
     record = {"findings": [{"agrees": "yes", "strength": "exact", "cases": [], "entries": entries}]}
     changes = list(sensitivity.misprints(claim, None))
-    assert len(changes) == 5 + 5 + 4 + 1
+    assert len(changes) == 9 * (5 + 5 + 4 + 1)
     assert {sensitivity.verdict_with(claim, record, change) for change in changes} == {"erratum"}
 
 
@@ -42,3 +42,27 @@ def test_enclosure_is_rounded_outward():
         below, above = sensitivity._rational(low), sensitivity._rational(high)
         assert below <= value <= above
         assert above - below <= abs(value) / fmpq(10) ** 22
+
+
+def test_a_looser_bound_is_kept_and_counted_with_its_reason():
+    """0.30 is kept by 0.25; so are the eight bounds above it and those whose first digit grew, and 0.2x is not."""
+    claim = Claim.model_validate(
+        {
+            "id": "b",
+            "where": "(1)",
+            "title": "t",
+            "compare": "bound",
+            "bound": "<=",
+            "printed": "0.30",
+            "because": "b",
+            "readings": [{"name": "r", "kind": "definition", "function": "f"}],
+            "expected": {"verdict": "reproduced"},
+        }
+    )
+    outcome = comparing.compare(claim, "bound", fmpq(1, 4), None)
+    entries = [dataclasses.asdict(entry) for entry in outcome.entries]
+    findings = [{"agrees": "yes", "strength": "exact", "cases": [], "entries": entries}]
+    found = sensitivity.survey(None, [claim], {"b": {"verdict": "reproduced", "findings": findings}})
+    assert found.changed == 3  # 0.00, 0.10, 0.20
+    assert len(found.kept) == 3 * 9 - 3
+    assert {reason for _, _, reason in found.kept} == {sensitivity.REASONS["bound"]}

@@ -89,3 +89,13 @@ def altered_number(text, rng):
     choices = [-x, x + 1, x - 1, 10 * x, x / 10, fmpq(0), near, near, near, 1 / x if x != 0 else fmpq(1)]
     found = rng.choice(choices)
     return f"{found.p}/{found.q}" if int(found.q) != 1 else str(found.p)
+
+
+def changes(old, new, place=""):
+    """Where two trees differ: "/place: old -> new", the digest apart."""
+    if isinstance(old, dict) and isinstance(new, dict):
+        keys = [key for key in {**old, **new} if key != "digest"]
+        return [d for key in keys for d in changes(old.get(key), new.get(key), f"{place}/{key}")]
+    if isinstance(old, list) and isinstance(new, list) and len(old) == len(new):
+        return [d for i, (a, b) in enumerate(zip(old, new, strict=True)) for d in changes(a, b, f"{place}/{i}")]
+    return [] if old == new else [f"{place}: {str(old)[:80]} -> {str(new)[:80]}"]

@@ -12,7 +12,7 @@ from fractions import Fraction
 
 import independent
 import pytest
-from mutations import mutated
+from mutations import changes, mutated
 
 from recontrol.lmi import verify
 
@@ -44,16 +44,6 @@ def sealed(altered):
         return resealed(altered)
     except (TypeError, ValueError):
         return None
-
-
-def changes(old, new, place=""):
-    """Where two trees differ, for the message of a failure."""
-    if isinstance(old, dict) and isinstance(new, dict):
-        keys = [key for key in {**old, **new} if key != "digest"]
-        return [d for key in keys for d in changes(old.get(key), new.get(key), f"{place}/{key}")]
-    if isinstance(old, list) and isinstance(new, list) and len(old) == len(new):
-        return [d for i, (a, b) in enumerate(zip(old, new, strict=True)) for d in changes(a, b, f"{place}/{i}")]
-    return [] if old == new else [f"{place}: {str(old)[:80]} -> {str(new)[:80]}"]
 
 
 @pytest.mark.parametrize("kind", KINDS)

@@ -1,9 +1,9 @@
-"""Would a misprint be noticed? Every printed digit of the claims that agree digit by digit is changed in turn."""
+"""Would a misprint be noticed? Every printed digit of the claims that agree is changed in turn, to each other digit."""
 
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from typing import Any
 
 from flint import fmpq
@@ -13,6 +13,18 @@ from recontrol.claims.printed import Cell, Number, Printed, parse_mask
 from recontrol.claims.schema import Claim
 from recontrol.claims.verdict import Finding, derive
 from recontrol.paper import Paper
+
+AGREEING = ("reproduced", "reproduced-under-assumption", "certified")
+DIGITWISE = ("digits", "cut")
+"""Ways to compare in which every digit decides."""
+REASONS = {
+    "bound": "a bound: with this digit it is another bound that the found value also keeps",
+    "range": "a figure that is read as a stated interval",
+    "identity": "a formula: the identity is decided from its symbols",
+    "size": "a size in words, compared as two whole numbers",
+    "statement": "a sentence: its margins are compared, and its figures stand in the reading",
+    "membership": "a question about whole rounding boxes: another digit would need another proof",
+}
 
 
 @dataclass(frozen=True)
@@ -25,7 +37,7 @@ class Misprint:
 
 
 def misprints(claim: Claim, paper: Paper) -> Iterator[Misprint]:
-    """Every print that differs from the claim's in one digit of one compared cell (the digit raised by one, 9 to 0)."""
+    """Every print that differs from the claim's in one digit of one compared cell."""
     printed = claim.printed_value(paper)
     mask = parse_mask(claim.entries, claim.except_, printed.shape)
     for i, row in enumerate(printed.rows):
@@ -41,7 +53,7 @@ def _changed(text: str) -> Iterator[str]:
     mantissa = text.lower().partition("e")[0] if "j" not in text and "i" not in text else text
     for position, character in enumerate(mantissa):
         if character.isdigit():
-            yield text[:position] + str((int(character) + 1) % 10) + text[position + 1 :]
+            yield from (text[:position] + digit + text[position + 1 :] for digit in "0123456789" if digit != character)
 
 
 def verdict_with(claim: Claim, record: dict[str, Any], misprint: Misprint) -> str:
@@ -51,11 +63,44 @@ def verdict_with(claim: Claim, record: dict[str, Any], misprint: Misprint) -> st
         how = reading.compare or claim.compare
         groups = [case["entries"] for case in finding["cases"]] or [finding["entries"]]
         agrees = finding["agrees"]
-        if how in ("digits", "cut") and any(groups):
+        if how in (*DIGITWISE, "bound") and any(groups):
             holds = reading.over.holds if reading.over else "all"
             agrees = combine([_agrees(claim, how, entries, misprint) for entries in groups], holds)
         findings.append(Finding(reading.name, reading.kind, agrees, finding["strength"]))
     return derive(claim.compare, claim.unique, findings).verdict
+
+
+@dataclass
+class Survey:
+    """What changing the digits of a paper's agreeing claims did.
+
+    changed: prints with one other digit whose verdict differs. kept: (claim, print, reason) of those whose verdict
+    stays. aside: claim -> reason, for agreeing claims whose print is not compared as a number.
+    """
+
+    claims: int = 0
+    changed: int = 0
+    kept: list[tuple[str, str, str]] = field(default_factory=list)
+    aside: dict[str, str] = field(default_factory=dict)
+
+
+def survey(paper: Paper, claims: list[Claim], records: dict[str, dict[str, Any]]) -> Survey:
+    """Change every digit of every agreeing claim; ``records`` are those of verdicts.json by claim."""
+    found = Survey()
+    for claim in claims:
+        verdict = records[claim.id]["verdict"]
+        if verdict not in AGREEING:
+            continue
+        if claim.compare not in (*DIGITWISE, "bound"):
+            found.aside[claim.id] = REASONS[claim.compare]
+            continue
+        found.claims += 1
+        for misprint in misprints(claim, paper):
+            if verdict_with(claim, records[claim.id], misprint) != verdict:
+                found.changed += 1
+            else:
+                found.kept.append((claim.id, misprint.cell, REASONS.get(claim.compare, "")))
+    return found
 
 
 def _agrees(claim: Claim, how: str, entries: list[dict[str, Any]], misprint: Misprint) -> str:
