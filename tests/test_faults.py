@@ -1,6 +1,6 @@
 """Faults injected into whole runs: a clear message, recovery by the plain command, final bytes equal to a clean run.
 
-RECONTROL_KILLS sets the number of kills (default 8); RECONTROL_FAULT_PAPERS=all takes all papers instead of the toy.
+RECONTROL_KILLS sets the number of kills (default 20); RECONTROL_FAULT_PAPERS=all takes all papers instead of the toy.
 """
 
 from __future__ import annotations
@@ -18,7 +18,9 @@ from projects import ROOT, Project, make_project
 
 from recontrol import paper as papers
 
-KILLS = int(os.environ.get("RECONTROL_KILLS", "8"))
+KILLS = int(os.environ.get("RECONTROL_KILLS", "20"))
+IN_A_ROW = 5
+"""Kills of one rebuild."""
 ALL_PAPERS = os.environ.get("RECONTROL_FAULT_PAPERS") == "all"
 
 
@@ -36,22 +38,39 @@ def subject(tmp_path_factory, built_toy) -> tuple[Project, dict[str, bytes], flo
 
 
 @pytest.mark.timeout(6 * 3600 if ALL_PAPERS else 900)
-@pytest.mark.parametrize("seed", range(KILLS))
-def test_killed_at_a_seeded_moment(subject, seed):
-    """kill -9 of the whole run, or of Snakemake alone so that its stages live on as orphans."""
+@pytest.mark.parametrize("chain", range(-(-KILLS // IN_A_ROW)))
+def test_killed_at_seeded_moments(subject, chain, record_property):
+    """kill -9 of the whole run, or of Snakemake alone so that its stages live on, as a rebuild goes on
+
+    Every kill is followed by the plain command, the last one to the end.
+    """
     project, clean, duration = subject
     for name in ("results", "figures"):
         shutil.rmtree(project.folder / name, ignore_errors=True)
-    rng = random.Random(seed)
-    run = project.start("all")
-    time.sleep(rng.uniform(0.1, 1.0) * duration)
+    rng = random.Random(chain)
+    kills = min(IN_A_ROW, KILLS - chain * IN_A_ROW)
+    for _ in range(kills):
+        kill(project, rng, duration)
+    project.snakemake("all", timeout=1800)
+    record_property("cases", kills)
+    assert project.artifacts() == clean
+
+
+def kill(project: Project, rng: random.Random, duration: float) -> None:
+    """One kill of a live run; a run that finishes before its moment is begun anew from nothing."""
+    share = rng.uniform(0.05, 0.5)
+    while True:
+        run = project.start("all")
+        time.sleep(share * duration)
+        if run.poll() is None:
+            break
+        shutil.rmtree(project.folder / "results")
+        share /= 2
     if rng.random() < 0.5:
         os.killpg(run.pid, signal.SIGKILL)
     else:
         run.kill()
     run.wait()
-    project.snakemake("all", timeout=1800)
-    assert project.artifacts() == clean
 
 
 @pytest.mark.parametrize("damage", ["truncated", "empty", "garbage", "swapped"])
@@ -165,6 +184,9 @@ def test_unreadable_lock_leaves_no_environment(tmp_path):
     assert result.returncode != 0
     assert "packages of" in result.stderr
     assert not (tmp_path / "venv/complete").exists()
+    lock.write_text("")
+    assert run_python(ROOT / "tools/environment.py", str(tmp_path / "venv"), str(lock)).returncode == 0
+    assert (tmp_path / "venv/complete").exists()
 
 
 def run_python(script: Path, *arguments: str) -> subprocess.CompletedProcess[str]:

@@ -118,6 +118,7 @@ def test_plain_command_recovers_from_kill(fresh_toy, built_toy, delay):
 
 
 def test_second_run_is_refused_in_words(toy):
+    before = toy.artifacts()
     toy.edit("papers/toy2024/helper.py", "FACTOR = 5", "import time\n\ntime.sleep(6)\nFACTOR = 5")
     first = toy.start("toy2024")
     try:
@@ -129,6 +130,9 @@ def test_second_run_is_refused_in_words(toy):
     finally:
         first.communicate()
     assert first.returncode == 0
+    toy.edit("papers/toy2024/helper.py", "import time\n\ntime.sleep(6)\n", "")
+    toy.snakemake("all")
+    assert toy.artifacts() == before
 
 
 def wait_for(condition, seconds: float = 30.0) -> None:
@@ -236,10 +240,15 @@ def test_quantity_without_a_value_is_named(toy):
 
 
 def test_non_finite_artifact_is_refused(toy):
+    before = toy.artifacts()
     toy.edit("papers/toy2024/simulation.py", '{"pole": pole}', '{"pole": float("inf")}')
     result = toy.snakemake("toy2024", check=False)
     assert result.returncode != 0
     assert "value.pole is inf" in result.stdout
+    assert verdicts(toy)["fig1-decay"] == "failed"
+    toy.edit("papers/toy2024/simulation.py", '{"pole": float("inf")}', '{"pole": pole}')
+    toy.snakemake("all")
+    assert toy.artifacts() == before
 
 
 def test_orphan_of_a_killed_run_writes_nothing(tmp_path, monkeypatch):

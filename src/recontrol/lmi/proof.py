@@ -70,7 +70,8 @@ def prove_feasible(
     notes = dict(notes or {})
     if isinstance(point, Solution):
         if not point.has_point:
-            raise NotProvenError(f"{problem.name}: {point.solver} gave no point ({point.outcome}: {point.words})")
+            words = "; ".join(filter(None, (point.words, point.reason)))
+            raise NotProvenError(f"{problem.name}: {point.solver} gave no point ({point.outcome}: {words})")
         notes = {"back_off": point.margin, "solver": point.solver, **notes}
         point = point.point
     exact = rounded_point(problem, point, decimals)
