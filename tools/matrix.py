@@ -149,7 +149,9 @@ def numeric(name):
 def kind(name):
     """Which stage made an artifact of a paper."""
     parts = name.removesuffix(".json").split("/")
-    return parts[0] if parts[0] == "figures" else parts[2] if len(parts) > 2 else ""
+    if parts[0] == "figures":
+        return "figures"
+    return parts[2] if len(parts) > 2 and Path("papers", parts[1]).is_dir() else ""
 
 
 def verdicts(made):
