@@ -118,8 +118,11 @@ def digits(found: dict[str, Tally]) -> str:
     tally = found.get("tests/test_built.py::test_every_printed_digit_that_agrees_matters", Tally())
     if not tally.outcomes["passed"]:
         return ""
-    reasons = Counter(text.partition(": ")[2] for text in tally.listed("aside"))
-    lines = [f"- {count} agreeing claims: {reason}." for reason, count in reasons.most_common()]
+    aside: dict[str, list[str]] = {}
+    for text in tally.listed("aside"):
+        name, _, reason = text.partition(": ")
+        aside.setdefault(reason, []).append(f"`{name}`")
+    lines = [f"- {reason} ({len(names)}): {', '.join(names)}" for reason, names in aside.items()]
     kept = [f"- `{name}`: {reason}." for name, _, reason in (text.partition(": ") for text in tally.listed("kept"))]
     return (
         "## Digits that may change\n\n"
