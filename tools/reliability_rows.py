@@ -121,15 +121,15 @@ ROWS = (
     ),
     Row(
         CHAIN,
-        "lock file that does not match, unfinished environment",
+        "lock file that does not match or that pip refuses, unfinished environment",
         (
             f"{FAULTS}::test_half_made_environment_is_built_again",
             f"{FAULTS}::test_unreadable_lock_leaves_no_environment",
             "tests/test_environment.py::test_a_failing_step_says_what_to_do_and_leaves_no_stamp",
         ),
         "`unfinished or outdated`; the step that failed",
-        "An environment that is not what the lock file says is cleared and made anew by `make reproduce`; one that "
-        "cannot be made is never taken for complete.",
+        "An environment that does not have the stamp of its lock file is cleared and made anew by `make reproduce`;"
+        " one that cannot be made is never taken for complete.",
         "recovered after mending the lock",
     ),
     Row(
@@ -212,7 +212,7 @@ ROWS = (
         "Somebody who computes the digest again is believed only where the arithmetic is still true. A second "
         "opinion in plain fractions, with other algorithms and no code of the verifier, confirms each one that is "
         "accepted.",
-        "{accepted} accepted, each one true; all others refused",
+        "{accepted} accepted, none found false; all others refused",
     ),
     Row(
         PROOFS,
@@ -221,7 +221,7 @@ ROWS = (
         "the datum, box or matrix that differs",
         "With the paper's folder at hand the conditions, data and boxes must be the paper's; the second opinion "
         "writes the conditions of a small paper once more. What the paper does not give is named in the answer.",
-        "{accepted} accepted, each one true; all others refused",
+        "{accepted} accepted, none found false; all others refused",
     ),
     Row(
         PROOFS,
@@ -230,7 +230,7 @@ ROWS = (
         "as above",
         "The papers' own certificates (files below 150 kB), with the old digest and with a new one. Those accepted "
         "differ in nothing that the statement is about.",
-        "{accepted} accepted, each one true; all others refused",
+        "{accepted} accepted, none found false; all others refused",
     ),
     Row(
         PROOFS,
