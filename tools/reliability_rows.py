@@ -210,8 +210,8 @@ ROWS = (
         (f"{VERIFIER}::test_damaged_certificates_standing_alone_are_accepted_only_if_true",),
         "the condition, entry or unknown at fault",
         "Somebody who computes the digest again is believed only where the arithmetic is still true. A second "
-        "opinion in plain fractions, with other algorithms and no code of the verifier, confirms each one that is "
-        "accepted.",
+        "opinion in plain fractions, with other algorithms and no code of the verifier, judges each one that is "
+        "accepted; where entries are balls it may stay open (in at most one of fifty).",
         "{accepted} accepted, none found false; all others refused",
     ),
     Row(
