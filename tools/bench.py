@@ -9,6 +9,7 @@ processor seconds of one run of this program on one thread, so that their ratio 
 from __future__ import annotations
 
 import argparse
+import inspect
 import platform
 import re
 import sys
@@ -26,6 +27,9 @@ STEP, SAMPLES = 0.1, 801
 TOLERANCES = {"solve_ivp": 1e-5, "forced_response": 1e-9}
 """Largest deviation over a run's own peak: the integrator is asked for 1e-6, the others are exact up to rounding."""
 REQUIRED = 100.0
+"""How many times the plain solve_ivp loop the linear loops have to be, or the program fails."""
+MOTION_TOLERANCE = 1e-6
+"""Largest deviation of the two-body motion over a run's own peak; both sides are asked for 1e-8."""
 
 
 def printed_loops(runs):
@@ -92,6 +96,65 @@ def forced_response_loop(A, x0, samples=SAMPLES):
     return np.array(states)
 
 
+def rendezvous(runs):
+    """A batch of the ensemble of wan2014: observer-based loop around the two-body motion."""
+    from papers.wan2014 import campaign, model
+    from recontrol import paper
+
+    data = paper.load(ROOT / "papers/wan2014").data
+    plant = model.model(**dict.fromkeys(inspect.signature(model.model).parameters, data))
+    return campaign.drawn(np.random.default_rng(1), runs, data, plant)
+
+
+def batched_motion(batch):
+    """All runs in one adaptive integration: states and estimates (runs, samples, 12)."""
+    from papers.wan2014 import campaign
+    from papers.wan2014.loop import simulate
+
+    found = simulate(batch, campaign.TIMES, rtol=campaign.TOLERANCE)
+    return np.concatenate([found["state"], found["estimate"]]).transpose(2, 1, 0)
+
+
+def motion_loop(batch):
+    """The plain loop over runs: state, estimate, radius and radial rate of one of them at a time."""
+    from scipy.integrate import solve_ivp
+
+    from papers.wan2014 import campaign
+    from recontrol.spacecraft.orbit import relative_acceleration
+
+    def rhs(_t, s, K, L, momentum, gm):
+        u = -K @ s[6:12] / batch.mass
+        rate = momentum / s[12] ** 2
+        free = relative_acceleration(s[:3], s[3:6], s[12], s[13], rate, gm)
+        observer = batch.A @ s[6:12] + L @ (s[:3] - s[6:9])
+        observer[3:] += u
+        return np.concatenate([s[3:6], free + u, observer, [s[13], s[12] * rate**2 - gm / s[12] ** 2]])
+
+    states, times = [], campaign.TIMES
+    for k, target in enumerate(batch.orbits):
+        radius, radial_rate, _ = target.radial_state(batch.anomaly[k])
+        first = np.concatenate([batch.start[:, k], batch.estimate[:, k], [radius, radial_rate]])
+        given = (batch.K[k], batch.L[k], target.angular_momentum, target.gm)
+        options = {"method": "DOP853", "t_eval": times, "rtol": campaign.TOLERANCE, "atol": 1e-8}
+        states.append(solve_ivp(rhs, (0, times[-1]), first, args=given, **options).y[:12].T)
+    return np.array(states)
+
+
+def motion(quick):
+    """Ratio of the batched two-body motion to the plain loop, and their deviation. Stops the program if they differ."""
+    few, many = rendezvous(2 if quick else 10), rendezvous(50 if quick else 1000)
+    ours, theirs = batched_motion(few), motion_loop(few)
+    deviation = float(np.max(np.abs(ours - theirs) / np.abs(theirs).max(axis=(1, 2), keepdims=True)))
+    if not deviation <= MOTION_TOLERANCE:
+        sys.exit(f"bench: the motion deviates by {deviation:.1e}, allowed {MOTION_TOLERANCE:g}: nothing is timed")
+    seconds = {}
+    for name, method, batch in (("batched", batched_motion, many), ("loop", motion_loop, few)):
+        start = time.process_time()
+        method(batch)
+        seconds[name] = (time.process_time() - start) / len(batch.orbits)
+    return {"deviation": deviation, "ratio": seconds["loop"] / seconds["batched"], "runs": len(many.orbits)} | seconds
+
+
 OTHERS = {"solve_ivp": solve_ivp_loop, "forced_response": forced_response_loop}
 
 
@@ -140,7 +203,7 @@ def measure(quick):
     rates = {"this project": rate(batched, *printed_loops(400 if quick else 2000))}
     few = printed_loops(10 if quick else 40)
     rates |= {name: rate(method, *few, repeats=2) for name, method in OTHERS.items()}
-    return {"agreement": check, "rates": rates, "growth": growth(quick)}
+    return {"agreement": check, "rates": rates, "growth": growth(quick), "motion": motion(quick)}
 
 
 def table(rows):
@@ -163,7 +226,8 @@ def page(found):
         parts.append(f"{table(rows)}\n\nExponent over the larger sizes: {exponent(sizes):.2f}.")
     return TEMPLATE.format(
         speeds=table(speeds), growth="\n\n".join(parts), samples=SAMPLES, step=STEP, machine=platform.machine(),
-        python=platform.python_version(), numpy=np.__version__,
+        python=platform.python_version(), numpy=np.__version__, required=REQUIRED, motion=found["motion"],
+        allowed=MOTION_TOLERANCE,
     )  # fmt: skip
 
 
@@ -188,7 +252,12 @@ carries over to another machine.
 
 `solve_ivp` is the plain loop with RK45 at rtol 1e-6, atol 1e-9; `forced_response` is python-control's, a new system for
 every run. This project exponentiates all matrices of a block at once and doubles the known samples by one dense product
-(`recontrol.campaign.linear`).
+(`recontrol.campaign.linear`). The program fails if the first ratio falls below {required:g}.
+
+The nonlinear ensemble, the two-body motion of wan2014 over 3000 s with observer and controller, is one adaptive
+integration of {motion[runs]} runs at once. It is {motion[ratio]:.0f} times as fast as the plain `solve_ivp` loop over
+the runs (DOP853 at rtol 1e-8 on both sides); states deviate by {motion[deviation]:.1e} of their peak, allowed
+{allowed:g}. What it saves is the interpreter's part of a step, not arithmetic.
 
 ## Growth
 

@@ -11,7 +11,7 @@ import numpy as np
 
 from recontrol.campaign.proven import Bound
 
-from .loop import simulate
+from .loop import Batch, simulate
 from .simulation.metrics import estimates, last_above, make_batch, target_orbit
 from .simulation.sweeps import VELOCITY_BALL
 
@@ -21,7 +21,10 @@ NEAR = 50.0  # m
 TOLERANCE = 1e-8
 
 
-def start(rng: Any, count: int, data: Any, model: Any) -> dict[str, np.ndarray]:
+TIMES = np.concatenate([np.arange(0, 30, 0.1), np.arange(30, HORIZON + 1, 10.0)])
+
+
+def drawn(rng: Any, count: int, data: Any, model: Any) -> Batch:
     """Uniform: true anomaly, eccentricity up to twice the printed one, velocity error in a ball of 5 m/s."""
     anomaly = rng.uniform(0, 2 * np.pi, count)
     eccentricity = data.float("e") * ECCENTRICITY * rng.uniform(0, 1, count)
@@ -37,10 +40,14 @@ def start(rng: Any, count: int, data: Any, model: Any) -> dict[str, np.ndarray]:
         }
         for k in range(count)
     ]
-    times = np.concatenate([np.arange(0, 30, 0.1), np.arange(30, HORIZON + 1, 10.0)])
-    found = simulate(make_batch(data, model, runs), times, rtol=TOLERANCE)
+    return make_batch(data, model, runs)
+
+
+def start(rng: Any, count: int, data: Any, model: Any) -> dict[str, np.ndarray]:
+    """Cost, largest thrust, distance at the end, and last time farther away than `NEAR`."""
+    found = simulate(drawn(rng, count, data, model), TIMES, rtol=TOLERANCE)
     distance = np.linalg.norm(found["state"][:3], axis=0)
-    near = [last_above(times, distance[:, k], NEAR) for k in range(count)]
+    near = [last_above(TIMES, distance[:, k], NEAR) for k in range(count)]
     return {
         "cost": found["cost"][-1],
         "thrust": np.abs(found["applied"]).max(axis=(0, 1)),

@@ -42,3 +42,27 @@ def test_section_of_another_program_is_kept():
     assert first == f"# new page\n\n{section}\n"
     assert bench.with_kept("# new page\n", first) == first
     assert bench.with_kept("# new page\n", "# old page\n") == "# new page\n"
+
+
+def test_the_motion_agrees_with_its_plain_loop():
+    batch = bench.rendezvous(2)
+    ours, theirs = bench.batched_motion(batch), bench.motion_loop(batch)
+    assert ours.shape == theirs.shape == (2, 598, 12)
+    assert np.abs(ours - theirs).max() < bench.MOTION_TOLERANCE * np.abs(theirs).max()
+
+
+def test_a_ratio_below_the_required_one_fails(monkeypatch, capsys):
+    rates = {"this project": 99.0, "solve_ivp": 1.0, "forced_response": 2.0}
+    found = {
+        "agreement": dict.fromkeys(bench.OTHERS, 1e-12),
+        "rates": rates,
+        "growth": {"states": {1: 1.0, 2: 2.0}},
+        "motion": {"deviation": 1e-9, "ratio": 7.0, "runs": 5},
+    }
+    monkeypatch.setattr(bench, "measure", lambda quick: found)
+    monkeypatch.setattr(bench.sys, "argv", ["bench.py"])
+    with pytest.raises(SystemExit, match="only 99 times the plain solve_ivp loop, required 100"):
+        bench.main()
+    rates["this project"] = 101.0
+    bench.main()
+    assert "| solve_ivp | 1 | 101 |" in capsys.readouterr().out
