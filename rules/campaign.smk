@@ -11,13 +11,28 @@ LARGE = (
 )
 
 
-# Some chunks of one campaign: always the same members, whatever the size of the campaign and of its jobs.
-rule chunks:
+# What the chunks of a paper depend on, in one file: Snakemake looks at every input of every job that could run, each time
+# it chooses one, and hundreds of inputs of hundreds of jobs cost more than the jobs.
+rule basis:
     input:
         COMMON,
         graph.before("campaign"),
         code=graph.code("campaign"),
         paper="papers/{paper}/paper.yaml",
+    output:
+        "results/{paper}/ensemble-basis.json",
+    log:
+        "run/log/{paper}/ensemble-basis.log",
+    message:
+        "{wildcards.paper}: basis of the ensembles"
+    shell:
+        "python -m recontrol.pipeline campaign basis {wildcards.paper} > {log} 2>&1"
+
+
+# Some chunks of one campaign: always the same members, whatever the size of the campaign and of its jobs.
+rule chunks:
+    input:
+        "results/{paper}/ensemble-basis.json",
     output:
         "results/{paper}/ensemble/{name}/chunks-{first}-{last}.json",
     log:
@@ -37,8 +52,8 @@ rule chunks:
 # The distributions that every run shows.
 rule ensemble:
     input:
+        "results/{paper}/ensemble-basis.json",
         chunks=graph.chunks(*SMALL),
-        code=graph.code("campaign"),
     output:
         multiext(
             "results/{paper}/ensemble/{name}", ".json", ".svg", ".pdf", ".png", ".csv"
@@ -56,8 +71,8 @@ rule ensemble:
 # The distributions of the large campaign.
 rule merge:
     input:
+        "results/{paper}/ensemble-basis.json",
         chunks=graph.chunks(*LARGE),
-        code=graph.code("campaign"),
     output:
         multiext(
             "results/{paper}/campaign/{name}", ".json", ".svg", ".pdf", ".png", ".csv"

@@ -44,6 +44,7 @@ def test_edit_of_an_imported_module_reruns_exactly_what_depends_on_it(toy):
         "toy2024: verdicts",
         "toy2024: quantities",
         "toy2024: review",
+        "toy2024: basis of the ensembles",
         "toy2024: poles, chunks 000000 to 000000",
         "toy2024: poles, distributions",
     }

@@ -20,17 +20,30 @@ from recontrol.campaign.proven import Bound
 from recontrol.campaign.sketch import Sketch
 from recontrol.errors import StageError, UnknownNameError
 from recontrol.paper import Paper
-from recontrol.pipeline import inputs, job, store
-from recontrol.pipeline.encode import dumps
-from recontrol.pipeline.layout import chunk_ranges, chunks_file, distribution_file
+from recontrol.pipeline import closure, inputs, job, store
+from recontrol.pipeline.encode import dumps, sha256
+from recontrol.pipeline.layout import basis_file, chunk_ranges, chunks_file, distribution_file
 from recontrol.pipeline.progress import progress
 
+SETTINGS = ("config/config.yaml", "environment.lock")
 LEVELS = (0.01, 0.05, 0.25, 0.5, 0.75, 0.95, 0.99)
 
 
 def generator(seed: int, chunk: int) -> np.random.Generator:
     """The generator of a chunk: independent streams of one seed."""
     return np.random.default_rng(np.random.SeedSequence(seed, spawn_key=(chunk,)))
+
+
+def basis(key: str) -> None:
+    """Publish the digests of code, settings, paper.yaml and earlier artifacts, the one input of every chunk."""
+    paper = job.open_paper(key)
+    sources = [*closure.code_of("campaign", key), *SETTINGS, f"papers/{key}/paper.yaml"]
+    content = {
+        "paper": key,
+        "sources": {name: sha256(Path(name).read_bytes()) for name in sources},
+        "artifacts": {path.as_posix(): store.digest_of(path) for path in _earlier(paper)},
+    }
+    job.publish("campaign", key, None, {basis_file(key): dumps(content).encode()}, _earlier(paper))
 
 
 def run_chunks(key: str, name: str, first: int, last: int) -> None:
@@ -173,13 +186,14 @@ def _earlier(paper: Paper) -> list[Path]:
 
 
 def main(arguments: list[str]) -> int:
-    """Command line: chunks PAPER NAME FIRST LAST | merge PAPER NAME TARGET SIZES | progress SIZES PAPER/NAME ...
+    """Command line: basis PAPER | chunks PAPER NAME FIRST LAST | merge PAPER NAME TARGET SIZES | progress SIZES NAMES.
 
-    SIZES: chunks of the campaign, chunks in a job, chunks of every run.
+    NAMES: PAPER/NAME ...; SIZES: chunks of the campaign, chunks in a job, chunks of every run.
     """
     parser = argparse.ArgumentParser(prog="recontrol.pipeline campaign", description=__doc__)
     commands = parser.add_subparsers(dest="command", required=True)
     simulating, merging, showing = (commands.add_parser(name) for name in ("chunks", "merge", "progress"))
+    commands.add_parser("basis").add_argument("paper")
     for command in (simulating, merging):
         command.add_argument("paper")
         command.add_argument("name")
@@ -190,7 +204,9 @@ def main(arguments: list[str]) -> int:
         command.add_argument("sizes", type=int, nargs=3)
     showing.add_argument("targets", nargs="*")
     options = parser.parse_args(arguments)
-    if options.command == "chunks":
+    if options.command == "basis":
+        basis(options.paper)
+    elif options.command == "chunks":
         run_chunks(options.paper, options.name, options.first, options.last)
     elif options.command == "merge":
         merge(options.paper, options.name, tuple(options.sizes), options.target)

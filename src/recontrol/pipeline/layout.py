@@ -23,6 +23,11 @@ def figure_file(key: str, figure: str, suffix: str) -> Path:
     return Path("figures", key, f"{figure}.{suffix}")
 
 
+def basis_file(key: str) -> Path:
+    """Digests of everything that the ensembles of a paper depend on."""
+    return Path("results", key, "ensemble-basis.json")
+
+
 def chunks_file(key: str, campaign: str, first: int, last: int) -> Path:
     """Merged sketches of the chunks `first` to `last` of a campaign."""
     return Path("results", key, "ensemble", campaign, f"chunks-{first:06d}-{last:06d}.json")
