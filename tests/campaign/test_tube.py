@@ -85,11 +85,11 @@ def test_blocks_of_starts_add_up():
 
 
 def test_a_parameter_in_several_entries_costs_less_when_tied():
-    E, F = matrix("0.05\n0.05\n0"), matrix("1 -1 0")
+    E, F = matrix("0.05\n0.05\n0"), matrix("1 1 0")
     half = E @ np.abs(F)
     tied, loose = growth_bound(modes(CENTRE, (E, F))), growth_bound(modes(box(CENTRE, half)))
     factor = np.linspace(-1, 1, 41)[:, None, None]
-    A = members(0, 1)[0] + factor * np.array([[0.05, -0.05, 0], [0.05, -0.05, 0], [0, 0, 0]])
+    A = members(0, 1)[0] + factor * np.array([[0.05, 0.05, 0], [0.05, 0.05, 0], [0, 0, 0]])
     worst = np.linalg.eigvals(A).real.max()
     assert worst <= tied < loose
 
