@@ -326,10 +326,12 @@ def test_report_shows_a_large_campaign_once_it_is_there_and_says_when_it_is_over
     assert "Large campaign: 2000 trajectories" in page.read_text()
     assert "Out of date" not in page.read_text()
     assert NOTHING in toy.snakemake("all").stdout
+    toy.edit("papers/toy2024/paper.yaml", "ten percent off", "10 percent off")
+    assert "toy2024: poles, large campaign" not in jobs(toy.snakemake("all").stdout)
+    assert "Out of date: results/toy2024/ensemble-basis.json was made anew since" in page.read_text()
     toy.edit("papers/toy2024/campaign.py", "0.9, 1.1", "0.95, 1.05")
-    ran = jobs(toy.snakemake("all").stdout)
-    assert "toy2024: poles, large campaign" not in ran
-    assert "Out of date: code or paper folder were edited since" in page.read_text()
+    toy.snakemake("all")
+    assert "Out of date: its code was edited since" in page.read_text()
 
 
 def test_a_trajectory_beyond_its_proven_bound_fails_the_merge(toy):

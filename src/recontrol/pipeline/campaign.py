@@ -112,7 +112,7 @@ def merge(key: str, name: str, sizes: tuple[int, int, int], target: str) -> None
     }
     refuse_contradictions(content)
     contents = {distribution_file(key, name, target): dumps(content).encode(), **_pictures(content, target)}
-    job.publish("campaign", key, name, contents, [*files, *_earlier(paper)])
+    job.publish("campaign", key, name, contents, [*files, basis_file(key), *_earlier(paper)])
 
 
 def refuse_contradictions(content: Mapping[str, Any]) -> None:

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import json
 from collections.abc import Iterable
+from functools import cache
 from pathlib import Path
 from typing import Any
 
@@ -23,7 +24,7 @@ def overtaken(key: str, name: str, root: Path | str = ".") -> str | None:
     if record is None:
         return "it has no record of how it was made"
     if record.get("code") != code_digest(key, base):
-        return "code or paper folder were edited since"
+        return "its code was edited since"
     for path, digest in record.get("inputs", {}).items():
         if "/ensemble/" in path:
             continue
@@ -33,6 +34,7 @@ def overtaken(key: str, name: str, root: Path | str = ".") -> str | None:
     return None
 
 
+@cache
 def code_digest(key: str, root: Path) -> str:
     """Digest of the code of a paper's campaigns, as the runner records it."""
     names = closure.code_of("campaign", key, root)
