@@ -210,6 +210,12 @@ def differing(name, found, first):
     return [f"- {name}: {k}: {new}, in the reference {old}\n" for k, old, new in pairs if new != old]
 
 
+def missing(name, found, first):
+    """What an environment did not make: a job failed there."""
+    absent = [key for key in first["bytes"] if key not in found["bytes"]]
+    return [f"- {name}: {', '.join(absent)}\n"] if absent else []
+
+
 def page(table):
     """docs/reproducibility.md from what was measured."""
     first = table["reference"]
@@ -219,6 +225,8 @@ def page(table):
     text += "".join(kind_row(name, found, first) for name, found in had.items() if name != "reference")
     lines = [line for name, found in had.items() for line in differing(name, found, first)]
     text += "\n## Verdicts that differ\n\n" + ("".join(lines) if lines else "None.\n")
+    lines = [line for name, found in had.items() for line in missing(name, found, first)]
+    text += "\n## Artifacts that were not made\n\n" + ("".join(lines) if lines else "None.\n")
     return text + TAIL
 
 
@@ -233,8 +241,8 @@ def main(arguments):
     Path("docs/reproducibility.md").write_text(page(table))
     first = table["reference"]
     had = {name: found for name, found in table.items() if found is not None}
-    wrong = [name for name, found in had.items() if differing(name, found, first) or found["book"] != first["book"]]
-    print(f"verdicts or VERDICTS.md differ under: {', '.join(wrong)}" if wrong else "all verdicts are the same")
+    wrong = [n for n, f in had.items() if differing(n, f, first) or f["book"] != first["book"] or f["code"]]
+    print(f"verdicts, VERDICTS.md or the exit code differ under: {', '.join(wrong)}" if wrong else "all the same")
     return 1 if wrong else 0
 
 
