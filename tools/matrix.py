@@ -127,7 +127,7 @@ def measure(name):
             "bytes": {key: hashlib.sha256(content).hexdigest() for key, content in made.items()},
             "digits": {key: canonical_digest(json.loads(made[key])) for key in made if numeric(key)},
             "verdicts": verdicts(made),
-            "book": hashlib.sha256(book.read_bytes()).hexdigest() if book.exists() else None,
+            "book": book.read_text().splitlines() if book.exists() else [],
             "python": subprocess.check_output([python, "-V"], text=True).split()[1],
             "log": (folder / "run.log").read_text()[-20_000:],
         }
@@ -185,7 +185,7 @@ def row(name, found, first):
         return f"| {name} | not run: no such interpreter | | | |\n"
     cells = [
         f"{sum(found['verdicts'].get(k) == v for k, v in first['verdicts'].items())} of {len(first['verdicts'])}",
-        "equal" if found["book"] and found["book"] == first["book"] else "differs",
+        "equal" if found["book"] == first["book"] else f"{len(other_lines(found, first))} lines differ",
         share(found["bytes"], first["bytes"], lambda _: True),
         share(found["digits"], first["digits"], lambda _: True),
     ]
@@ -210,6 +210,11 @@ def differing(name, found, first):
     return [f"- {name}: {k}: {new}, in the reference {old}\n" for k, old, new in pairs if new != old]
 
 
+def other_lines(found, first):
+    """Lines of the verdict book that the reference does not have."""
+    return [line for line in found["book"] if line not in set(first["book"])]
+
+
 def missing(name, found, first):
     """What an environment did not make: a job failed there."""
     absent = [key for key in first["bytes"] if key not in found["bytes"]]
@@ -225,6 +230,8 @@ def page(table):
     text += "".join(kind_row(name, found, first) for name, found in had.items() if name != "reference")
     lines = [line for name, found in had.items() for line in differing(name, found, first)]
     text += "\n## Verdicts that differ\n\n" + ("".join(lines) if lines else "None.\n")
+    lines = [f"- {name}: `{line}`\n" for name, found in had.items() for line in other_lines(found, first)]
+    text += "\n## Lines of VERDICTS.md that differ\n\n" + ("".join(lines) if lines else "None.\n")
     lines = [line for name, found in had.items() for line in missing(name, found, first)]
     text += "\n## Artifacts that were not made\n\n" + ("".join(lines) if lines else "None.\n")
     return text + TAIL
