@@ -37,8 +37,6 @@ rule chunks:
         "results/{paper}/ensemble/{name}/chunks-{first}-{last}.json",
     log:
         "run/log/{paper}/ensemble/{name}/chunks-{first}-{last}.log",
-    benchmark:
-        "run/benchmark/{paper}/ensemble/{name}/chunks-{first}-{last}.tsv"
     wildcard_constraints:
         first=r"\d+",
         last=r"\d+",

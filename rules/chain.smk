@@ -14,8 +14,6 @@ rule model:
         "results/{paper}/model.json",
     log:
         "run/log/{paper}/model.log",
-    benchmark:
-        "run/benchmark/{paper}/model.tsv"
     message:
         "{wildcards.paper}: model"
     shell:
@@ -33,8 +31,6 @@ rule synthesis:
         "results/{paper}/synthesis/{name}.json",
     log:
         "run/log/{paper}/synthesis/{name}.log",
-    benchmark:
-        "run/benchmark/{paper}/synthesis/{name}.tsv"
     message:
         "{wildcards.paper}: synthesis {wildcards.name}"
     shell:
@@ -52,8 +48,6 @@ rule certificate:
         "results/{paper}/certificates/{name}.json",
     log:
         "run/log/{paper}/certificates/{name}.log",
-    benchmark:
-        "run/benchmark/{paper}/certificates/{name}.tsv"
     message:
         "{wildcards.paper}: certificate {wildcards.name}"
     shell:
@@ -72,8 +66,6 @@ rule simulation:
         "results/{paper}/simulation/{name}.npz",
     log:
         "run/log/{paper}/simulation/{name}.log",
-    benchmark:
-        "run/benchmark/{paper}/simulation/{name}.tsv"
     message:
         "{wildcards.paper}: simulation {wildcards.name}"
     shell:
@@ -97,8 +89,6 @@ rule figure:
         multiext("figures/{paper}/{figure}", ".pdf", ".png", ".csv"),
     log:
         "run/log/{paper}/figures/{figure}.log",
-    benchmark:
-        "run/benchmark/{paper}/figures/{figure}.tsv"
     params:
         title=lambda wildcards: graph.figure(wildcards).title,
         caption=lambda wildcards: graph.figure(wildcards).caption,
@@ -124,8 +114,6 @@ rule verdicts:
         ),
     log:
         "run/log/{paper}/verdicts.log",
-    benchmark:
-        "run/benchmark/{paper}/verdicts.tsv"
     message:
         "{wildcards.paper}: verdicts"
     shell:
@@ -143,8 +131,6 @@ rule quantities:
         "results/{paper}/quantities.json",
     log:
         "run/log/{paper}/quantities.log",
-    benchmark:
-        "run/benchmark/{paper}/quantities.tsv"
     message:
         "{wildcards.paper}: quantities"
     shell:
