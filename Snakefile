@@ -58,6 +58,7 @@ rule all:
 
 onstart:
     closure.remember()
+    guard.lift_rate_limit(workflow)
 
 
 onsuccess:

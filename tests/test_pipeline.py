@@ -1,12 +1,13 @@
 """The chain on a toy paper of four tiny stages: each test breaks one thing and looks at what the plain command does."""
 
-from __future__ import annotations
+from __future__ import inspect
 
 import json
 import os
 import re
 import signal
 import time
+from types import SimpleNamespace
 
 import pytest
 
@@ -345,3 +346,18 @@ def test_a_campaign_has_to_state_what_is_proven_of_every_outcome(toy):
     toy.edit("papers/toy2024/campaign.py", '{"decay": Bound', '{"delay": Bound')
     output = toy.snakemake("all", check=False).stdout
     assert "states ['delay'], paper.yaml names the outcomes ['decay']" in output
+
+
+@pytest.mark.parametrize(("local", "left"), [(True, None), (False, "limit")])
+def test_the_rate_limit_is_lifted_for_local_runs_alone(local, left):
+    workflow = SimpleNamespace(local_exec=local, scheduler=SimpleNamespace(job_rate_limiter="limit"))
+    guard.lift_rate_limit(workflow)
+    assert workflow.scheduler.job_rate_limiter == left
+
+
+def test_snakemake_still_keeps_its_rate_limit_where_it_is_lifted():
+    from snakemake.scheduling.job_scheduler import JobScheduler
+
+    source = inspect.getsource(JobScheduler)
+    assert "self.job_rate_limiter = (" in source
+    assert "if self.job_rate_limiter is None:" in source

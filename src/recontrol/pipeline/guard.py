@@ -9,7 +9,7 @@ import sys
 import time
 import uuid
 from pathlib import Path
-from typing import IO
+from typing import IO, Any
 
 from recontrol.errors import RecontrolError
 from recontrol.pipeline import store
@@ -51,6 +51,17 @@ def enter(arguments: list[str] | None = None) -> None:
             print(f"recontrol: {path} {reason}; a run will rebuild it", file=sys.stderr)
         elif path.exists():
             print(f"recontrol: {path} {reason}; moved to {store.set_aside(path)}, will be rebuilt", file=sys.stderr)
+
+
+def lift_rate_limit(workflow: Any) -> None:
+    """Take Snakemake's limit of jobs a second off a run on this machine, where nothing is submitted to anybody.
+
+    With the limit, every choice of a job starts a timer whose end is another choice, so that the scheduler wakes the
+    more often the more jobs have run, and each time asks for the size of every input of every job that could run.
+    """
+    scheduler = workflow.scheduler
+    if workflow.local_exec and hasattr(scheduler, "job_rate_limiter"):
+        scheduler.job_rate_limiter = None
 
 
 def _dated_in_the_future() -> list[Path]:
