@@ -1,7 +1,8 @@
 """The chain on a toy paper of four tiny stages: each test breaks one thing and looks at what the plain command does."""
 
-from __future__ import inspect
+from __future__ import annotations
 
+import inspect
 import json
 import os
 import re
