@@ -15,6 +15,7 @@ import pytest
 from recontrol import skeleton
 from recontrol.errors import ArtifactError, RecontrolError
 from recontrol.pipeline import closure, guard, store
+from tests.conftest import ROOT
 
 NOTHING = "Nothing to be done"
 
@@ -362,3 +363,25 @@ def test_snakemake_still_keeps_its_rate_limit_where_it_is_lifted():
     source = inspect.getsource(JobScheduler)
     assert "self.job_rate_limiter = (" in source
     assert "if self.job_rate_limiter is None:" in source
+
+
+def test_a_figure_depends_on_its_own_topic_alone():
+    first = closure.code_of("figure", "wan2014", ROOT, figure="fig5")
+    other = closure.code_of("figure", "wan2014", ROOT, figure="si-answers")
+    assert "papers/wan2014/figures/published.py" in first
+    assert "papers/wan2014/figures/findings.py" not in first
+    assert "papers/wan2014/figures/findings.py" in other
+
+
+def test_what_is_remembered_of_imports_goes_by_content(tmp_path, monkeypatch):
+    """An edited source is not known yet; a memory that cannot be read is none."""
+    monkeypatch.setattr(closure, "MEMORY", tmp_path / "imports.json")
+    for text in ("no JSON", "[1, 2]", "{}"):
+        closure.MEMORY.write_text(text)
+        closure._memory.cache_clear()
+        assert closure._statements(b"import a") == [(0, "a", [])]
+    closure.remember()
+    closure._memory.cache_clear()
+    assert list(closure._memory().values()) == [[(0, "a", [])]]
+    assert closure._statements(b"import b") == [(0, "b", [])]
+    closure._memory.cache_clear()

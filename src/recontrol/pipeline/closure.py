@@ -63,6 +63,11 @@ def _stage_modules(paper: str, name: str, base: Path) -> list[str]:
     return [f"papers.{paper}.{name}", *(f"papers.{paper}.{name}.{topic}" for topic in topics)]
 
 
+def digest_of(names: list[str], root: Path | str = ".") -> str:
+    """Digest of the names and contents of some files under `root`."""
+    return sha256("".join(f"{name} {sha256(Path(root, name).read_bytes())}\n" for name in names).encode())
+
+
 def home_of(paper: str, name: str, function: str, root: Path | str = ".") -> str:
     """The module that defines a function: papers.<paper>.<name>, else the topic of that package where it stands."""
     package, folder = f"papers.{paper}.{name}", Path(root, "papers", paper, name)

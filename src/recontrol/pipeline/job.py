@@ -10,7 +10,6 @@ from pathlib import Path
 from recontrol import paper as papers
 from recontrol.errors import StageError
 from recontrol.pipeline import closure, store
-from recontrol.pipeline.encode import sha256
 
 
 def publish(stage: str, key: str, part: str | None, contents: Mapping[Path, bytes], inputs: list[Path]) -> None:
@@ -27,7 +26,7 @@ def publish(stage: str, key: str, part: str | None, contents: Mapping[Path, byte
         "paper": key,
         "stage": stage,
         "part": part,
-        "code": sha256("".join(f"{name} {sha256(Path(name).read_bytes())}\n" for name in declared).encode()),
+        "code": closure.digest_of(declared),
         **costs(),
         "inputs": {path.as_posix(): store.digest_of(path) for path in inputs if store.record_path(path).exists()},
     }

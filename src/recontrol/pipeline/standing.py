@@ -37,8 +37,7 @@ def overtaken(key: str, name: str, root: Path | str = ".") -> str | None:
 @cache
 def code_digest(key: str, root: Path) -> str:
     """Digest of the code of a paper's campaigns, as the runner records it."""
-    names = closure.code_of("campaign", key, root)
-    return sha256("".join(f"{name} {sha256((root / name).read_bytes())}\n" for name in names).encode())
+    return closure.digest_of(closure.code_of("campaign", key, root), root)
 
 
 def large_campaigns(targets: Iterable[str]) -> list[str]:
