@@ -9,14 +9,16 @@ from __future__ import annotations
 from typing import Any
 
 import numpy as np
+from flint import fmpq
 
 from recontrol.campaign.linear import abscissa, integral_square, settling_and_peak
 from recontrol.campaign.proven import Bound
+from recontrol.exact.rational import to_float
 
 from .simulation.regulator import BAND
 
 STEP, SAMPLES = 0.1, 1601  # s
-COEFFICIENT_HALF_UNIT = 0.5e-4
+COEFFICIENT_HALF_UNIT = fmpq(1, 20000)
 """(1), (3), (6), (8) and (12), (14) print four decimals."""
 
 Outcomes = dict[str, np.ndarray]
@@ -106,7 +108,7 @@ def rounded_plant(rng: Any, count: int, model: Any, synthesis: Any, axis: str) -
     found: Outcomes = {}
     plant, gains = model[axis], synthesis["gains"][axis]
     n = plant["A"].shape[0]
-    spread = COEFFICIENT_HALF_UNIT * rng.uniform(-1, 1, (2, count, n))
+    spread = float(to_float(COEFFICIENT_HALF_UNIT)) * rng.uniform(-1, 1, (2, count, n))
     A = np.broadcast_to(plant["A"], (count, n, n)).copy()
     A[:, 0] += spread[0] * (plant["A"][0] != 0)
     C = plant["C"] + spread[1][:, None] * (plant["C"] != 0)

@@ -19,12 +19,12 @@ from recontrol.exact.rational import diagonal, from_float, identity, rational, t
 from recontrol.lmi.scaling import power_of_two
 
 from . import recipe, sources
+from .campaign import COEFFICIENT_HALF_UNIT
 from .certificates import BOX_UNITS
 from .loops import printed_reduced, reduced_loop
 from .model import plants
 from .simulation.regulator import BAND
 
-COEFFICIENT_HALF_UNIT = fmpq(1, 20000)
 GRID = 0.01  # s
 PEAK_TIMES = [0.1 * k for k in range(200)]  # s, among the samples of the outcomes
 REDUCED_RATE = fmpq(1, 10)  # 1/s
