@@ -33,8 +33,8 @@ lint: test-environment ## the linters alone
 unit: test-environment ## the tests alone
 	@VENV=$(VENV)-test tools/test.sh unit
 
-faults: test-environment ## every fault test at full size; writes docs/reliability.md (half an hour)
-	@PYTHONPATH=src:. $(VENV)-test/bin/python tools/reliability.py
+faults: test-environment ## every fault test at full size; writes docs/reliability.md (an hour; RECONTROL_BUILT: a finished run)
+	@PYTHONPATH=src:. $(VENV)-test/bin/python tools/reliability.py --all
 
 bench: environment ## speed of the ensembles against plain loops; writes docs/performance.md (a minute)
 	@PYTHONPATH=src:. $(BIN)/python tools/bench.py --write

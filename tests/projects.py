@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 import os
-import shutil
 import subprocess
 import sys
 from pathlib import Path
 
-ROOT = Path(__file__).resolve().parents[1]
-TREE = ("Snakefile", "rules", "config", "profiles", "environment.lock", "src")
+from tools import tree
+
+ROOT = tree.ROOT
 
 
 class Project:
@@ -33,13 +33,13 @@ class Project:
             raise AssertionError(f"snakemake failed with {result.returncode}\n{result.stdout}")
         return result
 
-    def start(self, *arguments: str) -> subprocess.Popen[str]:
-        """Start a run in a process group of its own."""
+    def start(self, *arguments: str, output: int = subprocess.PIPE) -> subprocess.Popen[str]:
+        """Start a run in a process group of its own. Nobody may read its output for long: then send it elsewhere."""
         return subprocess.Popen(
             self.command(*arguments),
             cwd=self.folder,
             env=clean_environment(),
-            stdout=subprocess.PIPE,
+            stdout=output,
             stderr=subprocess.STDOUT,
             text=True,
             start_new_session=True,
@@ -79,13 +79,7 @@ def clean_environment() -> dict[str, str]:
 
 def make_project(folder: Path, papers: dict[str, Path]) -> Project:
     """Copy the chain and some paper folders into `folder`."""
-    folder.mkdir(parents=True)
-    for name in TREE:
-        source = ROOT / name
-        if source.is_dir():
-            shutil.copytree(source, folder / name, ignore=shutil.ignore_patterns("__pycache__"))
-        else:
-            shutil.copy2(source, folder / name)
+    tree.copy(folder, tree.CHAIN)
     for key, source in papers.items():
-        shutil.copytree(source, folder / "papers" / key, ignore=shutil.ignore_patterns("__pycache__"))
+        tree.copy_into(source, folder / "papers" / key)
     return Project(folder)

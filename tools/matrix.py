@@ -18,10 +18,10 @@ import tempfile
 import time
 from pathlib import Path
 
+import tree
+
 from recontrol.pipeline.encode import canonical_digest
 
-TREE = ("Snakefile", "rules", "config", "profiles", "environment.lock", "environment-test.lock", "pyproject.toml")
-TREE += ("src", "papers", "README.md", "docs", "CITATION.cff")
 KEPT = Path("run/matrix")
 THREADS = ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "RAYON_NUM_THREADS")
 ENVIRONMENTS = {
@@ -91,11 +91,7 @@ def interpreter(version):
 
 def build(folder, variables, python):
     """One cold run and its verdict book; returns the exit code of the run."""
-    for name in TREE:
-        if Path(name).is_dir():
-            shutil.copytree(name, folder / name, ignore=shutil.ignore_patterns("__pycache__"))
-        else:
-            shutil.copy2(name, folder / name)
+    tree.copy(folder)
     dropped = {"PYTHONPATH", "OPENBLAS_CORETYPE", *THREADS}
     environment = {key: value for key, value in os.environ.items() if key not in dropped}
     environment |= {key: value for key, value in variables.items() if key.isupper()}

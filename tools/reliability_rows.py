@@ -30,11 +30,18 @@ ROWS = (
     Row(
         CHAIN,
         "kill -9 at seeded moments",
-        (f"{FAULTS}::test_killed_at_seeded_moments",),
+        (f"{FAULTS}::test_killed_at_seeded_moments[toy",),
         "none needed",
         "Kill a run, or Snakemake alone so that its stages live on as orphans, five times in a row while a rebuild "
         "goes on. The plain command takes up what is whole and makes the rest; nothing has to be unlocked or "
         "deleted.",
+    ),
+    Row(
+        CHAIN,
+        "the same with all papers",
+        (f"{FAULTS}::test_killed_at_seeded_moments[all papers",),
+        "none needed",
+        "As above, ten kills a rebuild of everything.",
     ),
     Row(
         CHAIN,

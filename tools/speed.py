@@ -9,7 +9,6 @@ wall times are compared with each other.
 
 import json
 import os
-import shutil
 import subprocess
 import sys
 import tempfile
@@ -17,8 +16,8 @@ import time
 from collections import Counter
 from pathlib import Path
 
-TREE = ("Snakefile", "rules", "config", "profiles", "environment.lock", "environment-test.lock", "pyproject.toml")
-TREE += ("src", "papers", "CITATION.cff")
+import tree
+
 PAGE = Path("docs/performance.md")
 BEGIN, END = "<!-- speed -->", "<!-- /speed -->"
 CORES = 2
@@ -56,15 +55,6 @@ A job that proves one matrix inequality costs mostly the import of the solver's 
 needed nothing heavy is loaded.
 {end}
 """
-
-
-def copy(folder):
-    """The tree as it is, without anything made."""
-    for name in TREE:
-        if Path(name).is_dir():
-            shutil.copytree(name, folder / name, ignore=shutil.ignore_patterns("__pycache__"))
-        else:
-            shutil.copy2(name, folder / name)
 
 
 def run(folder):
@@ -130,8 +120,7 @@ def main(arguments):
     """Measure and write; exit code 1 if the cold run takes longer than its jobs allow."""
     with tempfile.TemporaryDirectory() as place:
         folder = Path(arguments[0] if arguments else place).resolve()
-        folder.mkdir(exist_ok=True)
-        copy(folder)
+        tree.copy(folder)
         wall, ran = run(folder)
         print(f"cold: {wall:.0f} s, {len(ran)} jobs", flush=True)
         seconds, jobs = costs(folder)

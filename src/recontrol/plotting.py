@@ -178,6 +178,16 @@ def label_axes(ax: Any, x: tuple[str, str] | None = None, y: tuple[str, str] | N
         ax.set_ylabel(axis_label(*y))
 
 
+def put_factor_into_label(ax: Any) -> None:
+    """Move the power of ten that all ticks of x share out of the corner, where it meets a long label, into the label."""
+    formatter = ax.xaxis.get_major_formatter()
+    formatter.set_useMathText(True)
+    formatter.set_locs(ax.get_xticks())
+    if factor := formatter.get_offset():
+        ax.xaxis.get_offset_text().set_visible(False)
+        ax.set_xlabel(f"{ax.get_xlabel()} {factor}")
+
+
 def letter_panels(axes: Iterable[Any], titles: Sequence[str] | None = None) -> None:
     """Put (a), (b), ... and an optional short title above each panel, left-aligned."""
     for k, ax in enumerate(np.ravel(np.asarray(axes, dtype=object))):

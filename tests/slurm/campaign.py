@@ -10,36 +10,26 @@ from __future__ import annotations
 
 import os
 import re
-import shutil
 import subprocess
 import sys
 import tempfile
 import time
 from pathlib import Path
 
-sys.path.insert(0, str(Path(__file__).parent))
+sys.path.insert(0, str(Path(__file__).parents[2] / "tools"))
 
 import cluster
+import tree
 
-ROOT = Path(__file__).resolve().parents[2]
-TREE = ("Snakefile", "rules", "config", "profiles", "environment.lock", "src")
 SIZES = {"chunk": 500, "campaign_chunks": 16, "campaign_batch": 4}  # four jobs a campaign, and one for the small one
 LIMIT = 1500.0
 
 
 def copy(paper: str, target: Path) -> None:
     """A tree with one paper and small ensembles."""
-    target.mkdir()
-    ignored = shutil.ignore_patterns("__pycache__")
-    for name in TREE:
-        source = ROOT / name
-        if source.is_dir():
-            shutil.copytree(source, target / name, ignore=ignored)
-        else:
-            shutil.copy(source, target / name)
-    toy = ROOT / "tests/toy" / paper
-    folder = target / "papers" / paper
-    shutil.copytree(toy if toy.is_dir() else ROOT / "papers" / paper, folder, ignore=ignored)
+    tree.copy(target, tree.CHAIN)
+    toy = tree.ROOT / "tests/toy" / paper
+    tree.copy_into(toy if toy.is_dir() else tree.ROOT / "papers" / paper, target / "papers" / paper)
     for config in (target / "config").glob("*.yaml"):
         text = config.read_text()
         for name, value in SIZES.items():

@@ -66,6 +66,7 @@ def _panel(ax: Any, name: str, row: Mapping[str, Any]) -> dict[str, tuple[Any, A
     if row["bound"] is not None:
         _mark(ax, row["bound"], sketch.minimum, sketch.maximum)
         curves[f"{name}: bound"] = ([row["bound"]] * 2, [0.0, 1.0])
+    plotting.put_factor_into_label(ax)
     return curves
 
 
