@@ -64,7 +64,7 @@ class Margin:
 
 def run(model: Any, solver: str = "CLARABEL") -> solvers.Run:
     """One guarded run; raises SweepError without values."""
-    found = solvers.run(model, solvers.profile(solver, **(solvers.FASTER if solver == "CLARABEL" else {})))
+    found = solvers.run(model, solvers.profile(solver, fast=True))
     if found.outcome not in (solvers.OPTIMAL, solvers.INACCURATE) or any(v is None for v in found.values):
         raise SweepError(f"{solver}: {found.words}")
     return found

@@ -100,10 +100,10 @@ def _run(model: Any, solver: str) -> solvers.Run:
     """One run; CLARABEL again without its equilibration, which is capped at 1e4 and may undo the half widths."""
     if solver != "CLARABEL":
         return solvers.run(model, solvers.profile(solver))
-    run = solvers.run(model, solvers.profile(solver, **solvers.FASTER))
+    run = solvers.run(model, solvers.profile(solver, fast=True))
     if run.outcome == solvers.OPTIMAL:
         return run
-    plain = solvers.profile(solver, **solvers.FASTER, chordal_decomposition_enable=False, equilibrate_enable=False)
+    plain = solvers.profile(solver, fast=True, chordal_decomposition_enable=False, equilibrate_enable=False)
     return solvers.run(model, plain)
 
 

@@ -179,7 +179,7 @@ def label_axes(ax: Any, x: tuple[str, str] | None = None, y: tuple[str, str] | N
 
 
 def put_factor_into_label(ax: Any) -> None:
-    """Move the power of ten that all ticks of x share out of the corner, where it meets a long label, into the label."""
+    """Move the power of ten that the ticks of x share into their label: in the corner a long label meets it."""
     formatter = ax.xaxis.get_major_formatter()
     formatter.set_useMathText(True)
     formatter.set_locs(ax.get_xticks())

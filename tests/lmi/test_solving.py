@@ -49,6 +49,24 @@ def lqr_problem():
     return Problem("lqr", {"P": symmetric(2)}, [riccati], data, maximise(trace_of_P))
 
 
+def test_where_the_default_solver_fails_the_backup_answers_under_its_own_name(monkeypatch):
+    def refuse(problem):
+        raise ArithmeticError("no")
+
+    monkeypatch.setitem(solvers.PROFILES, "REFUSING", Profile("REFUSING", "x", "none", "interior point", run=refuse))
+    monkeypatch.setenv("RECONTROL_SOLVER", "REFUSING")
+    solution = gain_problem().solve(fast=True)
+    assert (solution.solver, solution.outcome) == ("CLARABEL", "optimal")
+    assert solution.value == pytest.approx(0.25, rel=1e-5)
+    named = gain_problem().solve("REFUSING")
+    assert (named.solver, named.outcome) == ("REFUSING", "failed")
+
+
+@pytest.mark.parametrize("solver", ALL)
+def test_options_of_a_search_are_the_solvers_own(solver):
+    assert gain_problem().solve(solver, fast=True).value == pytest.approx(0.25, rel=1e-5)
+
+
 @pytest.mark.parametrize("solver", ALL)
 def test_bounded_real_lemma_gives_the_peak_gain(solver):
     """1/(s^2 + 3 s + 2) has its peak 1/2 at zero frequency."""

@@ -7,7 +7,6 @@ from typing import Any
 
 from recontrol.lmi.conditions import Condition
 from recontrol.lmi.proof import NotProvenError, prove_feasible, prove_infeasible
-from recontrol.lmi.solvers import FASTER
 
 from .. import conditions as c
 from .. import problems as pr
@@ -29,7 +28,7 @@ def feasible(data: Any, name: str, case: str, says: str, more: dict[str, Any] | 
     """Certificate of derived (21) for the case (w-print) at the solver's point of largest common margin."""
     listed = _conditions("w-print", gain="K_design" if more else "K")
     problem = pr.problem(data, name, case, listed, more=more, coupled=bool(more))
-    solution = problem.solve(**FASTER)
+    solution = problem.solve(fast=True)
     if not solution.has_point:
         raise NotProvenError(f"{name}: {solution.words}")
     point = exact_point(problem, solution.point, decimals=12)

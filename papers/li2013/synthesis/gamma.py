@@ -11,7 +11,6 @@ from recontrol.exact import rational
 from recontrol.lmi.conditions import minimise
 from recontrol.lmi.enclosure import bound_by_point
 from recontrol.lmi.problem import Problem, Solution, agreement
-from recontrol.lmi.solvers import FASTER
 from recontrol.lmi.variables import scalar
 
 from .. import conditions as c
@@ -46,7 +45,7 @@ def _by_block(data: Any, case: str, orbit: str, faults: str, alpha: str, value: 
     for block in DECOMPOSED:
         full = f"{case} block={block} alpha={alpha}"
         problem = gamma_problem(data, full, orbit, faults, with_decay=alpha != "0", value=value)
-        out[block] = infimum(problem.solve(**FASTER))
+        out[block] = infimum(problem.solve(fast=True))
     found = [out[block] for block in DECOMPOSED if out[block] is not None]
     return {**out, "gamma": max(found) if len(found) == len(DECOMPOSED) else None}
 
@@ -57,8 +56,8 @@ def _second_opinion(data: Any, alpha: str) -> dict[str, Any]:
     for block in DECOMPOSED:
         case = f"channel=d-only block={block} alpha={alpha}"
         problem = gamma_problem(data, case, "w-print", c.DERIVED, with_decay=alpha != "0")
-        solutions = [problem.solve("CLARABEL", **FASTER), problem.solve("CVXOPT"), problem.solve("SDPA")]
-        upper, _ = bound_by_point(problem, problem.solve(margin="1e-8", **FASTER).point)
+        solutions = [problem.solve("CLARABEL", fast=True), problem.solve("CVXOPT"), problem.solve("SDPA")]
+        upper, _ = bound_by_point(problem, problem.solve(margin="1e-8", fast=True).point)
         out[block] = {"solvers": agreement(solutions), "upper": float(np.sqrt(rational.to_float(upper)))}
     return out
 
@@ -84,7 +83,7 @@ def gamma(data: Any) -> dict[str, Any]:
         for orbit in ("w-print", "w-geo")
     }
     law = {h: _by_block(data, f"channel=yr-only units=fine h={h}", "w-print", c.PRINTED, "0", "100") for h in PERIODS}
-    full = gamma_problem(data, "channel=d-only", "w-print", c.DERIVED).solve(**FASTER)
+    full = gamma_problem(data, "channel=d-only", "w-print", c.DERIVED).solve(fast=True)
     return {
         "derived": derived,
         "printed": printed,

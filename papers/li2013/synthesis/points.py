@@ -7,7 +7,6 @@ from typing import Any
 from recontrol.lmi.conditions import condition
 from recontrol.lmi.problem import Problem
 from recontrol.lmi.proof import NotProvenError
-from recontrol.lmi.solvers import FASTER
 
 from .. import conditions as c
 from .. import problems as pr
@@ -18,7 +17,7 @@ BOTH = ("w-print", "w-geo")
 
 def _by_margin(data: Any, case: str, orbits: tuple[str, ...], faults: str) -> dict[str, Any]:
     problem = pr.point_problem(data, case, orbits, faults)
-    solution = problem.solve(**FASTER)
+    solution = problem.solve(fast=True)
     if not solution.has_point or not solution.point["t"] > 0:
         raise NotProvenError(
             f"{case}, faults {faults!r}: no point with a margin ({solution.outcome}: {solution.words})"
@@ -46,7 +45,7 @@ def _by_back_off(
     data: Any, case: str, faults: str, *, start: bool, margin: str, value: str = "10000"
 ) -> dict[str, Any]:
     problem = performance_problem(data, case, ("w-print",), faults, start=start, value=value)
-    solution = problem.solve(margin=margin, **FASTER)
+    solution = problem.solve(margin=margin, fast=True)
     if not solution.has_point:
         raise NotProvenError(f"{case}, faults {faults!r}: no point ({solution.outcome}: {solution.words})")
     point = exact_point(problem, solution.point, V0=data["V0"] if start else None, decimals=14)

@@ -9,7 +9,6 @@ import numpy as np
 
 from recontrol.lmi.conditions import minimise
 from recontrol.lmi.problem import Problem
-from recontrol.lmi.solvers import FASTER
 from recontrol.lmi.variables import scalar, symmetric
 
 from .. import conditions as c
@@ -37,7 +36,7 @@ def largest_tau(tau: Any) -> Any:
 
 
 def _tau_end(problem: Problem, objective: Any) -> float:
-    return float(point(replace(problem, objective=minimise(objective)).solve(**FASTER))["tau"])
+    return float(point(replace(problem, objective=minimise(objective)).solve(fast=True))["tau"])
 
 
 def printed(data: Any) -> dict[str, Any]:
@@ -89,7 +88,7 @@ def lyapunov_problem(data: Any, case: str) -> Problem:
 
 def lyapunov_bound(data: Any, case: str) -> float:
     """Torque bound [N m] for the initial state of Table 1, rigid loop, no disturbance, no drift."""
-    solution = lyapunov_problem(data, case).solve(**FASTER)
+    solution = lyapunov_problem(data, case).solve(fast=True)
     point(solution)
     return float(np.sqrt(solution.value))
 
@@ -99,7 +98,7 @@ def _smallest_torque(data: Any, theta: str) -> float:
     problem = build(
         data, "lemma4", f"loop-proposed;theta={theta}", [c.eq12_structured, c.eq19, c.eq20_derived], variables
     )
-    solution = replace(problem, objective=minimise(squared_torque)).solve(**FASTER)
+    solution = replace(problem, objective=minimise(squared_torque)).solve(fast=True)
     return float(np.sqrt(point(solution)["u2"]))
 
 

@@ -14,7 +14,6 @@ from recontrol.lmi.blocks import eye
 from recontrol.lmi.centre import Centre, analytic_centre
 from recontrol.lmi.conditions import condition, minimise
 from recontrol.lmi.problem import Problem, Solution
-from recontrol.lmi.solvers import FASTER
 from recontrol.lmi.variables import scalar
 from recontrol.systems.output_feedback import Controller
 
@@ -39,8 +38,8 @@ def least_gamma(problem: Problem, **options: Any) -> tuple[float, Solution]:
     then CVXOPT.
     """
     other = replace(problem, balanced=not problem.balanced)
-    for form, solver, speed in ((problem, "CLARABEL", FASTER), (other, "CLARABEL", FASTER), (problem, "CVXOPT", {})):
-        solution = form.solve(solver, **speed, **options)
+    for form, solver in ((problem, "CLARABEL"), (other, "CLARABEL"), (problem, "CVXOPT")):
+        solution = form.solve(solver, fast=True, **options)
         if solution.has_point:
             break
     return float(np.sqrt(max(point(solution)["gamma2"], 0.0))), solution

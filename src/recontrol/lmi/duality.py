@@ -204,10 +204,9 @@ def _equal(a: Faces, b: Faces) -> bool:
 
 
 def _run(model: Any, solver: str, time_limit: float, what: str, *, sharp: bool = False) -> solvers.Run:
-    fast = solvers.FASTER if solver == "CLARABEL" else {}
-    attempts = [{**fast, **SHARP[solver]}, fast] if sharp and solver in SHARP else [fast]
+    attempts = [SHARP[solver], {}] if sharp and solver in SHARP else [{}]
     for options in attempts:
-        run = solvers.run(model, solvers.profile(solver, **options), time_limit)
+        run = solvers.run(model, solvers.profile(solver, fast=True, **options), time_limit)
         if run.outcome in (solvers.OPTIMAL, solvers.INACCURATE) and all(v is not None for v in run.values):
             return run
     raise NotProvenError(f"{solver} gave no point for {what}: {run.words}")

@@ -212,19 +212,29 @@ class Problem:
         *,
         margin: str | int | None = None,
         time_limit: float = solvers.DEFAULT_TIME_LIMIT,
+        fast: bool = False,
         **options: Any,
     ) -> Solution:
         """Solve in scaled units and check the returned point.
 
-        Without a ``solver`` the run's own choice counts (see :func:`solvers.default`).
+        Without a ``solver`` the run's own choice counts (:func:`solvers.default`); where that one fails,
+        ``solvers.BACKUP`` is asked with its own options, and the solution names it. ``fast`` takes the options that the
+        profile has for searches.
         ``margin`` (decimal text) holds every strict condition off: M_s - margin I >= 0. Without an objective and a
         margin the largest common margin (at most 1) is sought, and "infeasible" means that it is not positive as far as
         the solver sees. ``time_limit`` [s] binds every solver. Further keywords are options of the solver. Raises
         SolverMissingError; everything else is an outcome.
         """
+        if solver is None:
+            found = self.solve(solvers.default(), margin=margin, time_limit=time_limit, fast=fast, **options)
+            if found.outcome != FAILED or solvers.default() == solvers.BACKUP:
+                return found
+            return self.solve(solvers.BACKUP, margin=margin, time_limit=time_limit, fast=fast)
+        return self._solved(solvers.profile(solver, fast=fast, **options), margin, time_limit)
+
+    def _solved(self, chosen: solvers.Profile, margin: str | int | None, time_limit: float) -> Solution:
         from recontrol.lmi.model import build
 
-        chosen = solvers.profile(solver or solvers.default(), **options)
         sought = margin is None and self.objective is None
         model = build(self, None if sought else rational.rational(margin or 0))
         run = solvers.run(model.problem, chosen, time_limit)
