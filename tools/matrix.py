@@ -181,7 +181,7 @@ def row(name, found, first):
         return f"| {name} | not run: no such interpreter | | | |\n"
     cells = [
         f"{sum(found['verdicts'].get(k) == v for k, v in first['verdicts'].items())} of {len(first['verdicts'])}",
-        "equal" if found["book"] == first["book"] else f"{len(other_lines(found, first))} lines differ",
+        "equal" if found["book"] == first["book"] else f"lines that differ: {len(other_lines(found, first))}",
         share(found["bytes"], first["bytes"], lambda _: True),
         share(found["digits"], first["digits"], lambda _: True),
     ]
@@ -217,6 +217,13 @@ def missing(name, found, first):
     return [f"- {name}: {', '.join(absent)}\n"] if absent else []
 
 
+def wrong(table):
+    """Environments in which a verdict or VERDICTS.md differs, or whose run failed."""
+    first = table["reference"]
+    had = {name: found for name, found in table.items() if found is not None}
+    return [n for n, f in had.items() if differing(n, f, first) or f["book"] != first["book"] or f["code"]]
+
+
 def page(table):
     """docs/reproducibility.md from what was measured."""
     first = table["reference"]
@@ -242,11 +249,9 @@ def main(arguments):
     names = [n for n in ENVIRONMENTS if only is None or n in only or n == "reference"]
     table = {name: remembered(name, key) for name in names}
     Path("docs/reproducibility.md").write_text(page(table))
-    first = table["reference"]
-    had = {name: found for name, found in table.items() if found is not None}
-    wrong = [n for n, f in had.items() if differing(n, f, first) or f["book"] != first["book"] or f["code"]]
-    print(f"verdicts, VERDICTS.md or the exit code differ under: {', '.join(wrong)}" if wrong else "all the same")
-    return 1 if wrong else 0
+    bad = wrong(table)
+    print(f"verdicts, VERDICTS.md or the exit code differ under: {', '.join(bad)}" if bad else "all the same")
+    return 1 if bad else 0
 
 
 if __name__ == "__main__":

@@ -56,3 +56,13 @@ def test_a_bound_far_away_does_not_squeeze_the_distribution():
     assert near.axes[0].get_xlim()[1] > 2.5
     assert far.axes[0].get_xlim()[1] < 3
     assert "proven bound 2e+03" in [text.get_text() for text in far.axes[0].texts]
+
+
+def test_a_power_of_ten_stands_in_the_label_and_not_in_the_corner(tmp_path):
+    figure, _ = draw(content([1.0e9, 2.0e9, 3.0e9]))
+    figure.savefig(tmp_path / "large.png")
+    ax = figure.axes[0]
+    assert "10^{9}" in ax.get_xlabel()
+    assert not ax.xaxis.get_offset_text().get_visible()
+    figure, _ = draw(content([1.0, 2.0]))
+    assert figure.axes[0].get_xlabel() == plotting.axis_label("time", "s")

@@ -27,9 +27,12 @@ LIMIT = 1500.0
 
 def copy(paper: str, target: Path) -> None:
     """A tree with one paper and small ensembles."""
+    places = [tree.ROOT / place / paper for place in ("tests/toy", "papers")]
+    source = next((place for place in places if place.is_dir()), None)
+    if source is None:
+        sys.exit(f"slurm: there is no papers/{paper}; name a folder of papers/, or nothing for the toy")
     tree.copy(target, tree.CHAIN)
-    toy = tree.ROOT / "tests/toy" / paper
-    tree.copy_into(toy if toy.is_dir() else tree.ROOT / "papers" / paper, target / "papers" / paper)
+    tree.copy_into(source, target / "papers" / paper)
     for config in (target / "config").glob("*.yaml"):
         text = config.read_text()
         for name, value in SIZES.items():
