@@ -19,7 +19,13 @@ from .. import problems as pr
 from ..derivation import quadratic_form, some_point, trajectory_gap
 from .support import loop
 
-DIFFERENCE = {"12": "-2 (h - tau) P3 + A'T2 + S2", "13": "S3", "23": "S2", "24": "-tau S2'"}
+DIFFERENCE: dict[str, tuple[str, Callable[..., np.ndarray]]] = {
+    "12": ("-2 (h - tau) P3 + A'T2 + S2", lambda x, A, h, tau: A.T @ x["T2"] + x["S2"] - 2 * (h - tau) * x["P3"]),
+    "13": ("S3", lambda x, A, h, tau: x["S3"]),
+    "23": ("S2", lambda x, A, h, tau: x["S2"]),
+    "24": ("-tau S2'", lambda x, A, h, tau: -tau * x["S2"].T),
+}
+"""Printed minus derived block: in words, and as a function that each reading compares exactly."""
 
 
 def _pair(data: Any, faults: str, tau: fmpq, point: dict[str, np.ndarray]) -> tuple[list[list[Any]], np.ndarray]:
@@ -40,8 +46,15 @@ def _identity(data: Any, name: str, ages: tuple[fmpq, ...]) -> Result:
         block = rows[i][j - i]
         left.append(rational.zeros(9) if isinstance(block, int) else block)
         right.append(form[9 * i : 9 * i + 9, 9 * j : 9 * j + 9])
-    evidence = {"printed minus derived": DIFFERENCE[name]} if name in DIFFERENCE else {}
-    return Result(Identity(np.vstack(left), np.vstack(right)), evidence)
+    printed, derived = np.vstack(left), np.vstack(right)
+    if name not in DIFFERENCE:
+        return Result(Identity(printed, derived), {})
+    words, formula = DIFFERENCE[name]
+    exact = pr.exact_data(data, "")
+    stated = np.vstack([formula(point, exact["A_print"], exact["h"], tau) for tau in ages])
+    if not np.all(printed - derived == stated):
+        raise ValueError(f"block {name}: printed minus derived is not {words}")
+    return Result(Identity(printed, derived), {"printed minus derived": words})
 
 
 def _reading(name: str, ages: str) -> Callable[[Any], Result]:
