@@ -91,9 +91,10 @@ def torque(data: Any) -> dict[str, Any]:
 
 
 def _second_step(data: Any, gain: Any, case: str, conditions: tuple[Any, ...]) -> tuple[dict[str, Any], dict[str, Any]]:
-    """Controller of (13) with "diag" at gamma = 10, and the least gamma given C_f."""
-    solution = theorem(data, "diag", case, gains=False, found={"C_f": gain}, torque=conditions).solve()
-    x = point(solution)
+    """Controller of (13) with "diag" at gamma = 10, the analytic centre, and the least gamma given C_f."""
+    problem = theorem(data, "diag", case, gains=False, found={"C_f": gain}, torque=conditions)
+    solution = problem.solve()
+    x, found = centre(problem, point(solution))
     gamma, _ = least_gamma(theorem(data, "diag", case, gains=False, found={"C_f": gain}, torque=conditions, best=True))
-    record = {"gamma": gamma, "solution": solution.record(), "point": dict(x)}
+    record = {"gamma": gamma, "solution": solution.record(), "point": x, "decrement": found.decrement}
     return controller_of_point(x, to_float(gain))._asdict(), record
