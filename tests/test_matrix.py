@@ -3,7 +3,10 @@
 from __future__ import annotations
 
 import copy
+import json
 import sys
+
+import pytest
 
 from tools import tree
 
@@ -12,7 +15,7 @@ sys.path.insert(0, str(tree.ROOT / "tools"))
 import matrix
 
 REFERENCE = {
-    "python": "3.11.7",
+    "environment": {"python": "3.11.7", "threads": "1", "kernel": "Haswell", "solver": "CLARABEL"},
     "code": 0,
     "verdicts": {"hashim2015/eq9": "reproduced", "hashim2015/eq10": "erratum"},
     "book": ["| eq9 | 1.25 |", "| eq10 | 2 |"],
@@ -49,5 +52,19 @@ def test_each_difference_is_counted_and_listed():
     assert matrix.wrong(table) == ["kernel SkylakeX"]
 
 
-def test_a_run_that_failed_counts_as_a_difference():
+def test_a_run_that_failed_or_made_no_book_counts_as_a_difference():
     assert matrix.wrong({"reference": REFERENCE, "two threads": changed(code=1)}) == ["two threads"]
+    without = changed(book=[])
+    assert matrix.wrong({"reference": without, "two threads": without}) == ["reference", "two threads"]
+    assert "## What follows" not in matrix.page({"reference": without})
+
+
+def test_a_job_that_ran_under_another_environment_stops_the_program(tmp_path):
+    chosen = matrix.PINNED | {"threads": "2", "python": "3.11.7"}
+    record = tmp_path / "run/provenance/model.json.json"
+    record.parent.mkdir(parents=True)
+    record.write_text(json.dumps({"environment": chosen | {"solver": ""}}))
+    matrix.check_jobs(tmp_path, chosen)
+    record.write_text(json.dumps({"environment": chosen | {"threads": "1"}}))
+    with pytest.raises(SystemExit, match="threads"):
+        matrix.check_jobs(tmp_path, chosen)

@@ -2,9 +2,9 @@
 
     python tools/matrix.py [--only NAME ...]
 
-Each environment is one cold `snakemake all` in a folder of its own, compared with the first one. What was measured is
-kept in run/matrix/ until the sources change, so that a stopped run goes on where it was. Exit code 1 if a verdict or a
-byte of VERDICTS.md differs.
+Each environment is one cold `snakemake all` of a copy of the tree as it was at the start, compared with the first one.
+What was measured is kept in run/matrix/ until the sources change, so that a stopped run goes on where it was; the page
+shows all that is known, also under --only. Exit code 1 if a run fails or a verdict or a byte of VERDICTS.md differs.
 """
 
 import argparse
@@ -23,15 +23,15 @@ import tree
 from recontrol.pipeline.encode import canonical_digest
 
 KEPT = Path("run/matrix")
-THREADS = ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "RAYON_NUM_THREADS")
+PINNED = {"threads": "1", "kernel": "Haswell", "solver": "CLARABEL"}
 ENVIRONMENTS = {
     "reference": {},
     "reference, again": {},
-    "two threads": dict.fromkeys(THREADS, "2"),
-    "kernel SkylakeX": {"OPENBLAS_CORETYPE": "SkylakeX"},
-    "kernel Sandybridge": {"OPENBLAS_CORETYPE": "Sandybridge"},
-    "default solver CVXOPT": {"solver": "cvxopt"},
-    "default solver SDPA": {"solver": "sdpa"},
+    "two threads": {"threads": "2"},
+    "kernel SkylakeX": {"kernel": "SkylakeX"},
+    "kernel Sandybridge": {"kernel": "Sandybridge"},
+    "default solver CVXOPT": {"solver": "CVXOPT"},
+    "default solver SDPA": {"solver": "SDPA"},
     "Python 3.12": {"python": "3.12"},
     "Python 3.13": {"python": "3.13"},
 }
@@ -39,8 +39,9 @@ KINDS = ("model", "synthesis", "certificates", "simulation", "quantities", "verd
 HEAD = """# Reproducibility across environments
 
 `make matrix` builds all papers from nothing in each environment and compares with the first, byte by byte and, for
-JSON artifacts, by the digest of their numbers rounded to six digits. The reference is Python {python}, one thread,
-the kernel Haswell, CLARABEL.
+JSON artifacts, by the digest of their numbers rounded to six digits. The reference is Python {python}, threads:
+{threads}, kernel of OpenBLAS: {kernel}, default solver: {solver}. Every job notes these four, and a row counts only if
+all its jobs noted what the row says.
 
 | environment | claims with the same verdict | VERDICTS.md | artifacts of equal bytes | JSON artifacts of equal digits |
 |---|---|---|---|---|
@@ -57,20 +58,23 @@ the CSV of the plotted data and the pictures, by bytes).
 TAIL = """
 ## What follows
 
-A verdict never rests on a solver's last digits: it comes from enclosures, proofs and stated margins. Bytes do rest on
-them, so they are compared on one machine in the pinned environment only (`make test` builds hashim2015 twice and
-compares). Searches end at another point of a non-unique answer wherever a kernel or a solver rounds differently;
-certificates then hold another witness of the same statement, and each was verified in its own environment.
+No verdict and no printed line of VERDICTS.md rested on the environment: they come from enclosures, proofs and stated
+margins, and what is printed is rounded to what carries. Bytes do rest on it, so they are compared on one machine in
+the pinned environment only (`make test` builds hashim2015 twice and compares). Searches end at another point of a
+non-unique answer wherever a kernel or a solver rounds differently; certificates then hold another witness of the same
+statement, and the verdicts took each from the verifier in its own environment. A solver that is asked by name, for a
+second opinion or in a search that is proven afterwards, is the same in all rows.
 """
 
 
-def sources():
+def sources(folder):
     """Digest of everything that a run is made from."""
     total = hashlib.sha256()
-    for top in ("Snakefile", "rules", "config", "profiles", "environment.lock", "src", "papers"):
-        for path in [Path(top)] if Path(top).is_file() else sorted(Path(top).rglob("*.*")):
-            if path.is_file() and path.suffix != ".pyc":
-                total.update(f"{path} {hashlib.sha256(path.read_bytes()).hexdigest()}\n".encode())
+    for top in (*tree.CHAIN, "papers"):
+        for path in [folder / top] if (folder / top).is_file() else sorted((folder / top).rglob("*.*")):
+            if path.is_file():
+                name = path.relative_to(folder).as_posix()
+                total.update(f"{name} {hashlib.sha256(path.read_bytes()).hexdigest()}\n".encode())
     return total.hexdigest()
 
 
@@ -89,33 +93,43 @@ def interpreter(version):
     return str((venv / "bin/python").absolute())
 
 
-def build(folder, variables, python):
-    """One cold run and its verdict book; returns the exit code of the run."""
-    tree.copy(folder)
-    dropped = {"PYTHONPATH", "OPENBLAS_CORETYPE", *THREADS}
-    environment = {key: value for key, value in os.environ.items() if key not in dropped}
-    environment |= {key: value for key, value in variables.items() if key.isupper()}
-    if "solver" in variables:
-        config = folder / "config/config.yaml"
-        config.write_text(config.read_text().replace("solver: clarabel", f"solver: {variables['solver']}"))
+def build(folder, chosen, python):
+    """One cold run and its verdict book; returns the exit code of the run, or else of the book."""
+    dropped = ("RECONTROL_", "OPENBLAS_", "PYTHONPATH")
+    environment = {key: value for key, value in os.environ.items() if not key.startswith(dropped)}
+    environment |= {"RECONTROL_THREADS": chosen["threads"], "OPENBLAS_CORETYPE": chosen["kernel"]}
+    config = folder / "config/config.yaml"
+    config.write_text(config.read_text().replace("solver: clarabel", f"solver: {chosen['solver'].lower()}"))
     with (folder / "run.log").open("w") as log:
         command = [python, "-m", "snakemake", "--cores", "2", "all"]
         code = subprocess.run(command, cwd=folder, env=environment, stdout=log, stderr=log).returncode
-        book = [python, "-m", "recontrol.report", "book"]
-        subprocess.run(book, cwd=folder, env=environment | {"PYTHONPATH": "src"}, stdout=log, stderr=log)
-    return code
+        command = [python, "-m", "recontrol.report", "book"]
+        book = subprocess.run(command, cwd=folder, env=environment | {"PYTHONPATH": "src"}, stdout=log, stderr=log)
+    return code or book.returncode
 
 
-def measure(name):
+def check_jobs(folder, chosen):
+    """Stop the program if a job of a run noted another environment than the chosen one."""
+    for path in (folder / "run/provenance").rglob("*.json"):
+        noted = json.loads(path.read_text()).get("environment", {})
+        strange = {key: value for key, value in noted.items() if value and value != chosen[key]}
+        if strange:
+            sys.exit(f"matrix: {path.name}: made under {strange}, wanted {chosen}")
+
+
+def measure(name, snapshot):
     """Build one environment and keep the digests of what it made; None if its interpreter cannot be had."""
-    variables = ENVIRONMENTS[name]
-    python = interpreter(variables.get("python"))
+    python = interpreter(ENVIRONMENTS[name].get("python"))
     if python is None:
         return None
+    version = subprocess.check_output([python, "-V"], text=True).split()[1]
+    chosen = PINNED | ENVIRONMENTS[name] | {"python": version}
     begin = time.monotonic()
     with tempfile.TemporaryDirectory() as place:
-        folder = Path(place)
-        code = build(folder, variables, python)
+        folder = Path(place) / "tree"
+        shutil.copytree(snapshot, folder)
+        code = build(folder, chosen, python)
+        check_jobs(folder, chosen)
         made = {p.relative_to(folder).as_posix(): p.read_bytes() for p in files(folder)}
         book = folder / "VERDICTS.md"
         found = {
@@ -124,7 +138,7 @@ def measure(name):
             "digits": {key: canonical_digest(json.loads(made[key])) for key in made if numeric(key)},
             "verdicts": verdicts(made),
             "book": book.read_text().splitlines() if book.exists() else [],
-            "python": subprocess.check_output([python, "-V"], text=True).split()[1],
+            "environment": chosen,
             "log": (folder / "run.log").read_text()[-20_000:],
         }
     print(f"{name}: exit code {code}, {len(made)} artifacts, {time.monotonic() - begin:.0f} s", flush=True)
@@ -156,15 +170,25 @@ def verdicts(made):
     return {f"{t['paper']}/{c['id']}": c["verdict"] for t in tables for c in t["claims"]}
 
 
+def kept(name):
+    """File of what was measured."""
+    return KEPT / f"{name.replace(' ', '-').replace(',', '')}.json"
+
+
 def remembered(name, key):
-    """What an earlier run measured from the same sources, or what is measured now."""
-    file = KEPT / f"{name.replace(' ', '-').replace(',', '')}.json"
-    if file.exists() and (old := json.loads(file.read_text()))["sources"] == key:
-        return old
-    found = measure(name)
+    """What an earlier run that did not fail measured from the same sources, or None."""
+    if not kept(name).exists():
+        return None
+    old = json.loads(kept(name).read_text())
+    return old if old["sources"] == key and old["code"] == 0 else None
+
+
+def known(name, key, snapshot):
+    """What was or is now measured; None if the interpreter cannot be had."""
+    found = remembered(name, key) or measure(name, snapshot)
     if found is not None:
         KEPT.mkdir(parents=True, exist_ok=True)
-        file.write_text(json.dumps(found | {"sources": key}, indent=1))
+        kept(name).write_text(json.dumps(found | {"sources": key}, indent=1))
     return found
 
 
@@ -185,7 +209,7 @@ def row(name, found, first):
         share(found["bytes"], first["bytes"], lambda _: True),
         share(found["digits"], first["digits"], lambda _: True),
     ]
-    label = f"{name} ({found['python']})" if "Python" in name else name
+    label = f"{name} ({found['environment']['python']})" if "Python" in name else name
     return f"| {label} | {' | '.join(cells)} |\n"
 
 
@@ -218,17 +242,19 @@ def missing(name, found, first):
 
 
 def wrong(table):
-    """Environments in which a verdict or VERDICTS.md differs, or whose run failed."""
+    """Environments in which a verdict or VERDICTS.md differs or is missing, or whose run failed."""
     first = table["reference"]
     had = {name: found for name, found in table.items() if found is not None}
-    return [n for n, f in had.items() if differing(n, f, first) or f["book"] != first["book"] or f["code"]]
+    return [
+        n for n, f in had.items() if f["code"] or not f["book"] or f["book"] != first["book"] or differing(n, f, first)
+    ]
 
 
 def page(table):
     """docs/reproducibility.md from what was measured."""
     first = table["reference"]
     had = {name: found for name, found in table.items() if found is not None}
-    text = HEAD.format(python=first["python"]) + "".join(row(name, found, first) for name, found in table.items())
+    text = HEAD.format(**first["environment"]) + "".join(row(name, found, first) for name, found in table.items())
     text += KIND_HEAD.format(kinds=" | ".join(KINDS), rule="|".join(["---"] * len(KINDS)))
     text += "".join(kind_row(name, found, first) for name, found in had.items() if name != "reference")
     lines = [line for name, found in had.items() for line in differing(name, found, first)]
@@ -237,7 +263,7 @@ def page(table):
     text += "\n## Lines of VERDICTS.md that differ\n\n" + ("".join(lines) if lines else "None.\n")
     lines = [line for name, found in had.items() for line in missing(name, found, first)]
     text += "\n## Artifacts that were not made\n\n" + ("".join(lines) if lines else "None.\n")
-    return text + TAIL
+    return text if wrong(table) else text + TAIL
 
 
 def main(arguments):
@@ -245,12 +271,21 @@ def main(arguments):
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--only", nargs="+", choices=[n for n in ENVIRONMENTS if n != "reference"], default=None)
     only = parser.parse_args(arguments).only
-    key = sources()
-    names = [n for n in ENVIRONMENTS if only is None or n in only or n == "reference"]
-    table = {name: remembered(name, key) for name in names}
-    Path("docs/reproducibility.md").write_text(page(table))
-    bad = wrong(table)
+    table = {}
+    with tempfile.TemporaryDirectory() as place:
+        snapshot = Path(place) / "tree"
+        tree.copy(snapshot)
+        key = sources(snapshot)
+        for name in ENVIRONMENTS:
+            if only is None or name in only or name == "reference":
+                table[name] = known(name, key, snapshot)
+            elif (old := remembered(name, key)) is not None:
+                table[name] = old
+            Path("docs/reproducibility.md").write_text(page(table))
+    bad, absent = wrong(table), [name for name in ENVIRONMENTS if table.get(name) is None]
     print(f"verdicts, VERDICTS.md or the exit code differ under: {', '.join(bad)}" if bad else "all the same")
+    if absent:
+        print(f"not compared: {', '.join(absent)}")
     return 1 if bad else 0
 
 

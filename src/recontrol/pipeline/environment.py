@@ -25,14 +25,26 @@ def for_jobs(root: Path) -> None:
 
 
 def pin() -> None:
-    """Set the variables that are not set yet; must run before numpy is imported.
+    """Set threads and kernel; must run before numpy is imported.
 
-    RAYON_NUM_THREADS is the one the interior-point solver listens to. OPENBLAS_CORETYPE fixes the kernel, whose choice
-    can flip a solver between `optimal` and `optimal_inaccurate`.
+    RECONTROL_THREADS (default 1) is the number of threads whatever the other variables say: Snakemake sets most of them
+    for each job. RAYON_NUM_THREADS is the one the interior-point solver listens to. OPENBLAS_CORETYPE, if it is not set
+    yet, fixes the kernel, whose choice can flip a solver between `optimal` and `optimal_inaccurate`.
     """
+    threads = os.environ.setdefault("RECONTROL_THREADS", "1")
     for name in THREADS:
-        os.environ.setdefault(name, "1")
+        os.environ[name] = threads
     if platform.machine() in ("x86_64", "AMD64"):
         os.environ.setdefault("OPENBLAS_CORETYPE", "Haswell")
     os.environ.setdefault("SOURCE_DATE_EPOCH", "0")
     os.environ.setdefault("MPLBACKEND", "Agg")
+
+
+def in_force() -> dict[str, str]:
+    """What this process was pinned to, for the records of its artifacts."""
+    return {
+        "threads": os.environ.get("OPENBLAS_NUM_THREADS", ""),
+        "kernel": os.environ.get("OPENBLAS_CORETYPE", ""),
+        "solver": os.environ.get("RECONTROL_SOLVER", ""),
+        "python": platform.python_version(),
+    }

@@ -9,7 +9,7 @@ from pathlib import Path
 
 from recontrol import paper as papers
 from recontrol.errors import StageError
-from recontrol.pipeline import closure, store
+from recontrol.pipeline import closure, environment, store
 
 
 def publish(stage: str, key: str, part: str | None, contents: Mapping[Path, bytes], inputs: list[Path]) -> None:
@@ -28,6 +28,7 @@ def publish(stage: str, key: str, part: str | None, contents: Mapping[Path, byte
         "part": part,
         "code": closure.digest_of(declared),
         **costs(),
+        "environment": environment.in_force(),
         "inputs": {path.as_posix(): store.digest_of(path) for path in inputs if store.record_path(path).exists()},
     }
     store.publish({path.as_posix(): content for path, content in contents.items()}, made_by)

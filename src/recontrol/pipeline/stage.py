@@ -24,7 +24,7 @@ def run(stage: str, key: str, part: str | None) -> None:
         raise StageError(f"papers/{key}/paper.yaml: stage {stage} has no part {part!r}")
     function = inputs.function_of(key, MODULES[stage], part or stage)
     config = inputs.load_config()
-    os.environ.setdefault("RECONTROL_SOLVER", str(config["solver"]).upper())
+    os.environ["RECONTROL_SOLVER"] = str(config["solver"]).upper()
     available = inputs.Inputs(paper, config, inputs.before(stage))
     result = available.call(function)
     home = inputs.where(function)
