@@ -9,7 +9,7 @@ import pytest
 from flint import arb, fmpq
 
 from recontrol.claims import proofs
-from recontrol.claims.values import Membership, ValueContractError, strength_of
+from recontrol.claims.values import Approx, Membership, ValueContractError, strength_of
 from recontrol.exact import ball, rational
 from recontrol.lmi import loops
 from recontrol.lmi.blocks import positive
@@ -68,6 +68,18 @@ def test_a_refutation_without_its_proof_is_open(certificates) -> None:
 def test_what_rests_on_a_certificate_is_open_without_it(certificates) -> None:
     assert proofs.provided(proofs.verified(certificates, "exact", "box"), fmpq(7)) == 7
     assert proofs.provided(proofs.verified(certificates, "exact", "wrong"), fmpq(7)).contains(0)
+
+
+@pytest.mark.parametrize(("names", "strength"), [(("exact",), "exact"), (("exact", "box"), "ball"), (("box",), "ball")])
+def test_a_rational_margin_is_as_strong_as_the_certificates_it_rests_on(certificates, names, strength) -> None:
+    found = proofs.verified(certificates, *names)
+    assert (bool(found), found.strength) == (True, strength)
+    assert strength_of(proofs.provided(found, fmpq(7))) == strength
+
+
+def test_a_margin_with_an_error_of_its_own_keeps_it(certificates) -> None:
+    assert strength_of(proofs.provided(proofs.verified(certificates, "exact"), arb(7))) == "ball"
+    assert strength_of(proofs.provided(proofs.verified(certificates, "box"), Approx(7.0, 0.5))) == "float"
 
 
 def test_accepted_gives_the_weakest_strength_or_names_the_certificate(certificates) -> None:

@@ -6,7 +6,7 @@ from typing import Any
 
 from flint import arb, fmpq
 
-from recontrol.claims.proofs import accepted, proven, refuted, undecided
+from recontrol.claims.proofs import accepted, proven, provided, refuted, undecided, verified
 from recontrol.claims.values import Approx, Result, Statement
 from recontrol.exact.ball import precision, to_ball
 from recontrol.exact.polynomial import charpoly, routh_column
@@ -105,9 +105,8 @@ def V0_printed_linear(certificates: Any) -> Result:
 
 def rho(data: Any, certificates: Any) -> Result:
     """rho less V(0), and the common solution of derived (21), (22), (47)."""
-    exact = accepted(certificates, "decay-box") == "exact"
-    margin = data["rho"] - data["V0"]
-    return Result(Statement({"rho - V(0)": margin if exact else arb(margin)}), certificate="decay-box")
+    margin = provided(verified(certificates, "decay-box"), data["rho"] - data["V0"])
+    return Result(Statement({"rho - V(0)": margin}), certificate="decay-box")
 
 
 def rho_bound(data: Any, synthesis: Any, case: str) -> Result:
@@ -157,7 +156,7 @@ def umax_simulated(data: Any, simulation: Any, case: str) -> Result:
 
 def umax_certificate(data: Any, model: Any, certificates: Any, case: str) -> Result:
     """(22) bounds the thrust for the zero reference, and for `hold` with the state less xi_ss if (47) still holds."""
-    accepted(certificates, "decay-box")
+    found = verified(certificates, "decay-box")
     P1 = decode(certificates["decay-box"]["witness"]["point"]["P1"])
     start = model["exact"]["xi0"]
     shifted = start - model["orbits"][case]["equilibrium"]
@@ -165,7 +164,8 @@ def umax_certificate(data: Any, model: Any, certificates: Any, case: str) -> Res
         "rho - V(0), zero": data["rho"] - (start.T @ P1 @ start)[0, 0],
         "rho - V(0), hold, shifted": data["rho"] - (shifted.T @ P1 @ shifted)[0, 0],
     }
-    return Result(Statement(margins), certificate="decay-box")
+    held = {name: provided(found, margin) for name, margin in margins.items()}
+    return Result(Statement(held), certificate="decay-box")
 
 
 def gamma_pulse(data: Any, simulation: Any, case: str) -> Result:

@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 from flint import arb, fmpq
 
-from recontrol.claims.proofs import proven, provided, verified
+from recontrol.claims.proofs import proven, provided, undecided, verified
 from recontrol.claims.values import Identity, Result, Size, Statement, certified
 from recontrol.lmi import verify
 
@@ -125,16 +125,16 @@ def tied_shared(data: Any, certificates: Any) -> Result:
                 for j in range(i):
                     product[i, j] = product[j, i]
             definite = is_positive_definite(V) and is_positive_definite(product)
-            holds = definite and verified(certificates, f"tied-shared-{gain}")
-            margins[f"contradiction, K_{gain}"] = provided(holds, arb(1))
+            found = verified(certificates, f"tied-shared-{gain}")
+            margins[f"contradiction, K_{gain}"] = provided(found, arb(1)) if definite else undecided()
     return Result(Statement(margins), {}, certificate="tied-shared-ext")
 
 
 def tied_separate(certificates: Any) -> Result:
     """N2 tied and two Lyapunov matrices: holds for K_ext and for K_trad; open if either does not verify."""
-    first, second = (certified(certificates[f"tied-separate-{gain}"]) for gain in ("ext", "trad"))
-    answer = second if first.holds else first
-    return Result(answer, {"K_ext": first.why, "K_trad": second.why}, certificate="tied-separate-ext")
+    names = {f"K_{gain}": f"tied-separate-{gain}" for gain in plant.GAINS}
+    evidence = {gain: certified(certificates[name]).why for gain, name in names.items()}
+    return Result(verified(certificates, *names.values()), evidence, certificate="tied-separate-ext")
 
 
 def lyapunov_w(data: Any) -> Size:

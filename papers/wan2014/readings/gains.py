@@ -27,7 +27,7 @@ def solves_38(certificates: Any, case: str) -> Result:
 def solves_CO_orbit(certificates: Any, synthesis: Any) -> Result:
     ends = synthesis["intervals"]
     evidence = {
-        "R once as well": verified(certificates, "CO_n_orbit_R1"),
+        "R once as well": verified(certificates, "CO_n_orbit_R1").holds,
         "n admitted [rad/s], CO": [ends["CO_low"]["outside"]["n"], ends["CO_high"]["outside"]["n"]],
         "n with a witness [rad/s], CO": [ends["CO_low"]["inside"]["n"], ends["CO_high"]["inside"]["n"]],
     }
@@ -40,11 +40,11 @@ def solves_SF_orbit(certificates: Any) -> Result:
 
 
 def solves_CO_printed(certificates: Any) -> Result:
-    return located(certificates, "CO_n_printed_R2", {"R once as well": verified(certificates, "CO_n_printed_R1")})
+    return located(certificates, "CO_n_printed_R2", {"R once as well": verified(certificates, "CO_n_printed_R1").holds})
 
 
 def solves_SF_printed(certificates: Any) -> Result:
-    return located(certificates, "SF_n_printed_R2", {"R once as well": verified(certificates, "SF_n_printed_R1")})
+    return located(certificates, "SF_n_printed_R2", {"R once as well": verified(certificates, "SF_n_printed_R1").holds})
 
 
 def starts_with_velocity(certificates: Any) -> Result:

@@ -18,6 +18,7 @@ STRENGTHS = ("float", "ball", "exact")
 
 __all__ = [
     "Approx",
+    "Certified",
     "Identity",
     "Membership",
     "Result",
@@ -131,11 +132,14 @@ class Membership:
 
 @dataclass(frozen=True)
 class Certified:
-    """Truth of a certificate's statement as the standalone verifier found it."""
+    """Truth of what one or several certificates state, as the standalone verifier found it; true if they hold."""
 
     holds: bool
     strength: str
     why: str
+
+    def __bool__(self) -> bool:
+        return self.holds
 
 
 def certified(certificate: Mapping[str, Any]) -> Certified:
