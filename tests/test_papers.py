@@ -65,6 +65,8 @@ def test_every_named_function_exists(folder):
     for stage in papers.STAGES_WITH_PARTS:
         assert not missing_parts(folder, closure.MODULES[stage], paper.parts(stage))
     assert not missing_parts(folder, "figures", paper.file.figures)
+    for module in (closure.MODULES["campaign"], closure.BOUNDS):
+        assert not missing_parts(folder, module, paper.file.campaigns)
     assert "model" in functions(folder, "model")
     assert not paper.file.quantities or "quantities" in functions(folder, "quantities")
 

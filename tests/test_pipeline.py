@@ -339,14 +339,14 @@ def test_report_shows_a_large_campaign_once_it_is_there_and_says_when_it_is_over
 
 
 def test_a_trajectory_beyond_its_proven_bound_fails_the_merge(toy):
-    toy.edit("papers/toy2024/campaign.py", "- 1.1 *", "- 1.0 *")
+    toy.edit("papers/toy2024/campaign_bounds.py", "- 1.1 *", "- 1.0 *")
     output = toy.snakemake("all", check=False).stdout
     assert re.search(r"outcome 'decay': trajectory \d+ \(chunk 0, member \d+, seed 2024\) gives", output)
     assert "the end of the interval" in output
 
 
 def test_a_campaign_has_to_state_what_is_proven_of_every_outcome(toy):
-    toy.edit("papers/toy2024/campaign.py", '{"decay": Bound', '{"delay": Bound')
+    toy.edit("papers/toy2024/campaign_bounds.py", '{"decay": Bound', '{"delay": Bound')
     output = toy.snakemake("all", check=False).stdout
     assert "states ['delay'], paper.yaml names the outcomes ['decay']" in output
 

@@ -12,7 +12,6 @@ import numpy as np
 from flint import fmpq
 
 from recontrol.campaign.linear import abscissa, integral_square, settling_and_peak
-from recontrol.campaign.proven import Bound
 from recontrol.exact.rational import to_float
 
 from .simulation.regulator import BAND
@@ -60,13 +59,6 @@ def full_order(rng: Any, count: int, data: Any) -> Outcomes:
     return outcomes(loop, np.hstack([x0, x0]), np.append(C[0], np.zeros(4)))
 
 
-def full_order_bounds(data: Any) -> dict[str, Bound]:
-    """Both boxes and every start."""
-    from .campaign_bounds import full_order
-
-    return full_order(data)
-
-
 def reduced_members(rng: Any, count: int, data: Any, measured: np.ndarray) -> np.ndarray:
     """Loops (count, 7, 7) of members of the box of (66)-(69), fed with the signal ``measured @ x``."""
     A, B = data.float("A_yaw"), data.float("B_yaw")
@@ -82,25 +74,11 @@ def reduced_x1(rng: Any, count: int, data: Any) -> Outcomes:
     return outcomes(loop, x0, np.append(data.float("C_yaw")[0], np.zeros(3)))
 
 
-def reduced_x1_bounds(data: Any) -> dict[str, Bound]:
-    """The box of (66)-(69) and every start."""
-    from .campaign_bounds import reduced_x1
-
-    return reduced_x1(data)
-
-
 def reduced_y(rng: Any, count: int, data: Any) -> Outcomes:
     """(66)-(69) over their boxes, fed with the output that the satellite measures."""
     rate = abscissa(reduced_members(rng, count, data, data.float("C_yaw")))
     with np.errstate(divide="ignore"):
         return {"abscissa": rate, "doubling": np.where(rate > 0, np.log(2) / rate, np.inf)}
-
-
-def reduced_y_bounds(data: Any) -> dict[str, Bound]:
-    """Instability of every member."""
-    from .campaign_bounds import reduced_y
-
-    return reduced_y(data)
 
 
 def rounded_plant(rng: Any, count: int, model: Any, synthesis: Any, axis: str) -> Outcomes:
@@ -132,17 +110,3 @@ def plant_yaw(rng: Any, count: int, model: Any, synthesis: Any) -> Outcomes:
 def plant_roll(rng: Any, count: int, model: Any, synthesis: Any) -> Outcomes:
     """The rounded plant of roll, whose zeros lie in the right half plane."""
     return rounded_plant(rng, count, model, synthesis, "roll")
-
-
-def plant_yaw_bounds(model: Any, synthesis: Any) -> dict[str, Bound]:
-    """The loops of yaw, every start."""
-    from .campaign_bounds import rounded_plant
-
-    return rounded_plant(model, synthesis, "yaw")
-
-
-def plant_roll_bounds(model: Any, synthesis: Any) -> dict[str, Bound]:
-    """The loops of roll, every start."""
-    from .campaign_bounds import rounded_plant
-
-    return rounded_plant(model, synthesis, "roll")

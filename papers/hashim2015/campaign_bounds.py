@@ -124,3 +124,13 @@ def rounded_plant(model: Any, synthesis: Any, axis: str) -> dict[str, Bound]:
         here = along(modes(M, (E, F)), np.hstack([C[:1], zeros(1, order)]), np.vstack([identity(n), start]))
         found |= {f"{name}-{key}": here[key] for key in ("settling", "ise", "abscissa")}
     return found
+
+
+def plant_yaw(model: Any, synthesis: Any) -> dict[str, Bound]:
+    """The loops of yaw."""
+    return rounded_plant(model, synthesis, "yaw")
+
+
+def plant_roll(model: Any, synthesis: Any) -> dict[str, Bound]:
+    """The loops of roll."""
+    return rounded_plant(model, synthesis, "roll")

@@ -10,7 +10,6 @@ from typing import Any
 
 import numpy as np
 
-from recontrol.campaign.proven import Bound
 from recontrol.campaign.steppers import batched_expm
 
 from .sweeps import floats
@@ -58,10 +57,3 @@ def jitter(rng: Any, count: int, data: Any) -> dict[str, np.ndarray]:
         "distance": np.linalg.norm(x[:, :3], axis=1),
         "rate": rate,
     }
-
-
-def jitter_bounds(data: Any) -> dict[str, Bound]:
-    """Every sequence of the drawn intervals, every gain of the box, every start at the printed distance."""
-    from .campaign_bounds import jitter
-
-    return jitter(data)

@@ -9,10 +9,8 @@ from __future__ import annotations
 from typing import Any
 
 import numpy as np
-from flint import fmpq
 
 from recontrol.campaign.linear import abscissa, settling_and_peak, trajectories
-from recontrol.campaign.proven import Bound, certified
 from recontrol.systems.output_feedback import drifted
 from recontrol.systems.regions import disk_radius
 
@@ -46,22 +44,6 @@ def gain_drift(rng: Any, count: int, data: Any) -> dict[str, np.ndarray]:
     return outcomes(rng, count, data, 0.0)
 
 
-def gain_drift_bounds(data: Any, certificates: Any) -> dict[str, Bound]:
-    """Every drift, from the printed start."""
-    from .campaign_bounds import drifting
-
-    return drifting(data, "gains-proposed", fmpq(15, 100)) | {
-        "radius": certified(certificates, "disk-drift", data.float("disk_b"))
-    }
-
-
 def drift_inertia(rng: Any, count: int, data: Any) -> dict[str, np.ndarray]:
     """All fifteen parameters: drift of the gains and errors of the three moments of inertia."""
     return outcomes(rng, count, data, 1.0)
-
-
-def drift_inertia_bounds(data: Any) -> dict[str, Bound]:
-    """Every drift and every inertia of the envelope, from the printed start."""
-    from .campaign_bounds import drifting, radius
-
-    return drifting(data, "all-proposed", fmpq(12, 100)) | {"radius": radius(data, "all-proposed")}

@@ -12,7 +12,7 @@ import numpy as np
 from flint import fmpq
 
 from recontrol.campaign.ellipsoid import ellipsoid, in_disk
-from recontrol.campaign.proven import Bound, bounded
+from recontrol.campaign.proven import Bound, bounded, certified
 from recontrol.exact.rational import identity, to_float
 
 from .campaign import BAND
@@ -43,3 +43,15 @@ def radius(data: Any, case: str) -> Bound:
     """Radius of the disk of the poles for the channels of a case."""
     holds = in_disk(problem_data(data, case), data["disk_a"], RADIUS)
     return bounded(float(to_float(RADIUS)) if holds else None, LYAPUNOV, "exact")
+
+
+def gain_drift(data: Any, certificates: Any) -> dict[str, Bound]:
+    """Every drift of the gains, nominal inertia."""
+    return drifting(data, "gains-proposed", fmpq(15, 100)) | {
+        "radius": certified(certificates, "disk-drift", data.float("disk_b"))
+    }
+
+
+def drift_inertia(data: Any) -> dict[str, Bound]:
+    """Every drift and every inertia of the envelope."""
+    return drifting(data, "all-proposed", fmpq(12, 100)) | {"radius": radius(data, "all-proposed")}

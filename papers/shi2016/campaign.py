@@ -11,7 +11,6 @@ from typing import Any
 import numpy as np
 
 from recontrol.campaign.linear import abscissa, integral_square, settling_and_peak
-from recontrol.campaign.proven import Bound
 
 from . import plant
 
@@ -63,23 +62,9 @@ def gain_ext(rng: Any, count: int, data: Any) -> dict[str, np.ndarray]:
     return changed_gain(rng, count, data, "ext")
 
 
-def gain_ext_bounds(data: Any) -> dict[str, Bound]:
-    """Every change and every start."""
-    from .campaign_bounds import gain_ext
-
-    return gain_ext(data)
-
-
 def gain_trad(rng: Any, count: int, data: Any) -> dict[str, np.ndarray]:
     """The traditional gain, changed."""
     return changed_gain(rng, count, data, "trad")
-
-
-def gain_trad_bounds(data: Any) -> dict[str, Bound]:
-    """Every change and every start."""
-    from .campaign_bounds import gain_trad
-
-    return gain_trad(data)
 
 
 def inertia_ext(rng: Any, count: int, data: Any) -> dict[str, np.ndarray]:
@@ -95,10 +80,3 @@ def inertia_ext(rng: Any, count: int, data: Any) -> dict[str, np.ndarray]:
     A[:, :3, 3:] = np.eye(3)
     A[:, 3:] = (low + boxed_gain(rng, count, data, "ext")) / inertia[:, :, None]
     return outcomes(A, starts(rng, count, data), "ext")
-
-
-def inertia_ext_bounds(data: Any) -> dict[str, Bound]:
-    """Every member and every start."""
-    from .campaign_bounds import inertia_ext
-
-    return inertia_ext(data)

@@ -9,8 +9,6 @@ from typing import Any
 
 import numpy as np
 
-from recontrol.campaign.proven import Bound
-
 from .loop import Batch, simulate
 from .simulation.metrics import estimates, last_above, make_batch, target_orbit
 from .simulation.sweeps import VELOCITY_BALL
@@ -54,10 +52,3 @@ def start(rng: Any, count: int, data: Any, model: Any) -> dict[str, np.ndarray]:
         "distance": distance[-1],
         "near": np.array([np.inf if t is None else t for t in near]),
     }
-
-
-def start_bounds(data: Any, model: Any) -> dict[str, Bound]:
-    """Every orbit, anomaly and velocity error that can be drawn."""
-    from .campaign_bounds import start
-
-    return start(data, model)

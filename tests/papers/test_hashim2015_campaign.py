@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from papers.hashim2015 import campaign
+from papers.hashim2015 import campaign, campaign_bounds
 from recontrol import paper
 from recontrol.pipeline.campaign import generator
 from tests.conftest import ROOT
@@ -38,7 +38,7 @@ UNPROVEN = {("reduced-x1", "settling"), ("plant-roll", "full-settling")}
 def test_no_member_exceeds_its_proven_bound(name):
     found = outcomes_of(name)
     described = paper.load(ROOT / "papers/hashim2015").file.campaigns[name].outcomes
-    proven = call(getattr(campaign, f"{name.replace('-', '_')}_bounds"))
+    proven = call(getattr(campaign_bounds, name.replace("-", "_")))
     assert set(found) == set(described) == set(proven)
     assert {(name, outcome) for outcome, bound in proven.items() if bound.value is None} == {
         pair for pair in UNPROVEN if pair[0] == name
@@ -56,7 +56,7 @@ def test_directions_that_show_least_settle_within_the_bound():
     x0 = np.hstack([grid, grid])
     row = np.append(C[0], np.zeros(4))
     found = campaign.outcomes(np.repeat(loop, 4000, axis=0), x0, row)
-    proven = call(campaign.full_order_bounds)
+    proven = call(campaign_bounds.full_order)
     assert 0.5 * proven["settling"].value < found["settling"].max() < proven["settling"].value
     assert 0.9 * proven["ise"].value < found["ise"].max() < proven["ise"].value
 

@@ -60,7 +60,7 @@ def test_velocity_errors_stay_in_the_ball(monkeypatch):
 
 
 def test_the_two_body_motion_stays_inside_what_is_proven():
-    proven = campaign.start_bounds(DATA, MODEL)
+    proven = bounds.start(DATA, MODEL)
     found = campaign.start(generator(7, 0), 60, DATA, MODEL)
     assert set(proven) == set(found)
     for outcome, bound in proven.items():

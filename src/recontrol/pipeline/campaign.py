@@ -1,7 +1,8 @@
 """Robustness campaigns: seeded chunks of trajectories, merged into distributions.
 
 A paper's campaign.py holds one function a campaign: it draws `count` members of the ensemble with the generator `rng`
-and returns the outcomes of their trajectories, one array of `count` numbers for each outcome that paper.yaml names.
+and returns the outcomes of their trajectories, one array of `count` numbers for each outcome that paper.yaml names. Its
+campaign_bounds.py holds a function of the same name, which says what is proven of each outcome for all members.
 Chunk k always draws the same members, whatever the size of the campaign and the order of the jobs.
 """
 
@@ -157,11 +158,16 @@ def describe(sketch: Sketch, bound: Bound) -> dict[str, Any]:
 
 
 def bounds_of(paper: Paper, name: str) -> dict[str, Bound]:
-    """What is proven by outcome, from the function `<name>_bounds` of campaign.py.
+    """What is proven by outcome, from the function of campaign_bounds.py that bears the campaign's name.
 
     Raises StageError unless it gives a bound, or says why there is none, for every outcome.
     """
-    function = inputs.function_of(paper.key, "campaign", f"{name}_bounds")
+    try:
+        function = inputs.function_of(paper.key, closure.BOUNDS, name)
+    except StageError as error:
+        raise StageError(
+            f"{error}; campaign {name!r} needs a function of its name there, which says what is proven of each outcome"
+        ) from None
     available = inputs.Inputs(paper, inputs.load_config(), inputs.before("campaign"))
     found = available.call(function)
     wanted = set(_entry(paper, name).outcomes)

@@ -33,6 +33,9 @@ MODULES = {
 }
 """Stage -> module of the paper folder that holds its functions."""
 
+BOUNDS = "campaign_bounds"
+"""Module of the paper folder that says what is proven of each campaign."""
+
 COMMANDS = dict.fromkeys(ORDER, "stage") | {
     "figure": "figure",
     "verdicts": "verdicts",
@@ -53,6 +56,8 @@ def code_of(stage: str, paper: str, root: Path | str = ".", figure: str | None =
     if figure is not None:
         modules -= set(_stage_modules(paper, MODULES[stage], base))
         modules |= {f"papers.{paper}.{MODULES[stage]}", home_of(paper, MODULES[stage], figure, base)}
+    if stage == "campaign":
+        modules |= set(_stage_modules(paper, BOUNDS, base))
     modules |= {f"recontrol.pipeline.{COMMANDS[name]}" for name in earlier} | {"recontrol.pipeline.__main__"}
     return files_of(frozenset(modules), base)
 
