@@ -27,9 +27,13 @@ def found(claim: Claim) -> str:
     finding = claim.decisive
     if finding is None or claim.verdict == "unspecified":
         return ""
+    if len({case.get("agrees") for _, case in finding.cases}) > 1:
+        return present.cases_text(finding)  # one value would be that of a case which may not be the one that decides
     compared = present.compared(claim, finding)
     if 0 < len(compared) <= 4:
-        return ", ".join(numbers.write_like(cell, text) for cell, text in compared)
+        # The places of a printed limit say nothing about what was found.
+        bound = (finding.compare or claim.compare) == "bound"
+        return ", ".join(numbers.write(c, DIGITS) if bound else numbers.write_like(c, text) for c, text in compared)
     text = numbers.rounded_text(present.found_text(claim, finding), DIGITS)
     if " = " not in text:
         return text.partition("; ")[0]  # what a certificate was rebuilt from stands in the claim's evidence

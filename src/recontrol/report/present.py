@@ -169,10 +169,13 @@ def found_text(claim: Claim, finding: Finding) -> str:
     if counted:
         measured = distances(claim, finding)
         return f"{len(measured) - len(far(claim, finding))} of {len(measured)} entries agree"
-    if finding.cases:
-        yes = sum(case.get("agrees") == "yes" for _, case in finding.cases)
-        return f"{yes} of {len(finding.cases)} cases agree"
-    return values.one_line(finding.value)
+    return cases_text(finding) if finding.cases else values.one_line(finding.value)
+
+
+def cases_text(finding: Finding) -> str:
+    """Return how many cases of a reading agree."""
+    yes = sum(case.get("agrees") == "yes" for _, case in finding.cases)
+    return f"{yes} of {len(finding.cases)} cases agree"
 
 
 def compared(claim: Claim, finding: Finding) -> list[tuple[numbers.Cell, str]]:
