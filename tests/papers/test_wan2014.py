@@ -8,11 +8,12 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from flint import fmpq
+from flint import arb, fmpq
 from scipy.linalg import solve_continuous_lyapunov
 
 from papers.wan2014 import boxes, conditions, loop, model, pole_boxes, problems, rep
 from papers.wan2014.certificates import impossible
+from papers.wan2014.readings import observer
 from papers.wan2014.simulation import linear, metrics
 from papers.wan2014.synthesis import infeasible, observers
 from recontrol.exact import ball, rational
@@ -88,6 +89,23 @@ def test_gradient_of_the_determinant_matches_a_difference():
 def test_krawczyk_refuses_a_gain_without_the_poles():
     with ball.precision(128):
         assert not pole_boxes.krawczyk(data(), plant()["A"]["n_printed"], data()["L_printed"])[0]
+
+
+def test_poles_are_excluded_only_where_the_determinant_keeps_away_from_zero(monkeypatch):
+    found = observer.poles_printed(data()).value
+    assert (found.inside, found.why) == (False, "d(s) does not vanish over the box")
+    monkeypatch.setattr(pole_boxes, "excluded", lambda *_: {"pole 1": arb(0), "pole 2": arb(0)})
+    found = observer.poles_printed(data()).value
+    assert found.inside is None
+    assert "may vanish" in found.why
+
+
+def test_a_placement_is_claimed_only_where_it_is_proven(monkeypatch):
+    assert "lies within" in observer.poles_corrected(data()).value.why
+    monkeypatch.setattr(pole_boxes, "krawczyk", lambda *_: (False, [], None))
+    found = observer.poles_corrected(data()).value
+    assert found.inside is None
+    assert "lies within" not in found.why
 
 
 def test_printed_form_of_the_thrust_inequality_is_congruent_to_the_short_one():

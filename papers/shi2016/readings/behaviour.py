@@ -59,7 +59,7 @@ def settling_both(simulation: Any, case: str) -> Any:
     return max((_settling(simulation, run, case) for run in runs), key=lambda found: found.value)
 
 
-def faster(synthesis: Any, model: Any, simulation: Any) -> Result:
+def faster(model: Any, simulation: Any) -> Result:
     """Slowest pole of K_ext against that of K_trad (a fifth must not reach it), and settling at every fraction."""
     poles = model[plant.DEFAULT]["poles"]
     slowest = {gain: max(complex(p).real for p in poles[gain]) for gain in plant.GAINS}

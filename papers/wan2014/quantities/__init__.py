@@ -12,5 +12,5 @@ def quantities(data: Any, model: Any, synthesis: Any, certificates: Any, simulat
     return {
         **observer.quantities(data, model, synthesis),
         **gains.quantities(data, synthesis, certificates),
-        **experiments.quantities(model, simulation),
+        **experiments.quantities(simulation),
     }

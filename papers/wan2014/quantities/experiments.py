@@ -32,7 +32,7 @@ def _plain(value: Any) -> Any:
     return np.asarray(value) if isinstance(value, (list, np.ndarray)) else value
 
 
-def quantities(model: Any, simulation: Any) -> dict[str, Any]:
+def quantities(simulation: Any) -> dict[str, Any]:
     """Quantities of this topic."""
     main, gains = simulation["main"]["values"], simulation["gains"]["values"]
     runs = {**main, **{f"xhat0_r0, {name}": entry for name, entry in gains.items() if name != "printed"}}

@@ -12,6 +12,7 @@ RELATIVE = 1e-6  # the three routes agree to 1e-8 m; sampling and interpolation 
 
 
 def approx(value: float) -> Approx:
+    """A simulated value with its error bound."""
     return Approx(float(value), RELATIVE * max(abs(float(value)), 1e-6))
 
 
@@ -51,6 +52,7 @@ def states_converge(data: Any, simulation: Any, case: str) -> Statement:
 
 
 def seen_in_3000s(data: Any, simulation: Any, case: str) -> Result:
+    """1 % of the start less the distance at 3000 s, the length of the paper's figure [m]."""
     distance, _ = _start(data)
     found = _case(simulation, case)
     return Result(

@@ -19,6 +19,7 @@ BITS = 128
 
 
 def _plant(data: Any) -> np.ndarray:
+    """A at the printed mean motion."""
     return plants.plant(data, data["n_printed"])["A"]
 
 
@@ -29,7 +30,8 @@ def poles_printed(data: Any) -> Result:
         bounds = pole_boxes.excluded(data, A, data.ball("L_printed"))
         out = any(value > 0 for value in bounds.values())
         multiple = pole_boxes.nearest(data, A, data["L_printed"], data.half("L_printed"))[0]
-    inside = Membership(False if out else None, "ball", "d(s) does not vanish over the box")
+    why = "d(s) does not vanish over the box" if out else "d(s) may vanish over the box at every pole"
+    inside = Membership(False if out else None, "ball", why)
     return Result(inside, {"abs d(s) at least": bounds, "multiple of all half units needed (float)": multiple})
 
 
@@ -42,10 +44,11 @@ def poles_corrected(data: Any) -> Result:
         found, moved, _ = pole_boxes.krawczyk(data, A, exact)
         room = min(h - abs(a - b) for a, b, h in zip(exact.flat, data["L_corrected"].flat, half.flat, strict=True))
     holds = found and room > pole_boxes.RADIUS
-    why = f"an exact placement lies within 1e-9 of a rational L in the box; entries moved: {moved}"
-    return Result(
-        Membership(True if holds else None, "ball", why), {"multiple of all half units needed (float)": multiple}
-    )
+    why = "no exact placement is proven in the box"
+    if holds:
+        why = f"an exact placement lies within 1e-9 of a rational L in the box; entries moved: {moved}"
+    inside = Membership(True if holds else None, "ball", why)
+    return Result(inside, {"multiple of all half units needed (float)": multiple})
 
 
 def placed_gain(synthesis: Any) -> Result:
@@ -73,14 +76,17 @@ def solvable_placed(certificates: Any) -> Result:
 
 
 def X_definite(certificates: Any) -> Result:
+    """Every X in the rounding box of (43) is positive definite (certificate)."""
     return proven(certificates, "X_definite")
 
 
 def satisfies_eq14(certificates: Any, case: str) -> Result:
+    """Whether some X, Y in the boxes of (43) satisfy (14) with this observer gain (certificate)."""
     return located(certificates, f"eq14_{case}")
 
 
 def req_i(certificates: Any, case: str) -> Result:
+    """One Lyapunov matrix diag(P_x, P_e) for every Lambda of (42), printed K (certificate)."""
     return proven(certificates, f"stable_{case}")
 
 

@@ -38,14 +38,17 @@ def _linearised(order: int) -> tuple[Any, Any]:
 
 
 def eq2_A() -> Identity:
+    """Linearised two-body motion at order 0 in the eccentricity, against A of (2)."""
     return Identity(*_linearised(0))
 
 
 def eq2_dA() -> Identity:
+    """The same at order 1, against Delta A of (2)."""
     return Identity(*_linearised(1))
 
 
 def sec2_accuracy(simulation: Any) -> Result:
+    """Distance to the two-body drift of the circular model less that of (1), at each time and mean motion [m]."""
     values = simulation["drift"]["values"]
     margins = {}
     for motion in ("n_orbit", "n_printed"):
@@ -57,6 +60,7 @@ def sec2_accuracy(simulation: Any) -> Result:
 
 
 def eq3_norm(data: Any) -> Result:
+    """1 less the largest entry of Lambda'Lambda of (42), at M = 0 and pi/2."""
     margins, weak = {}, {}
     for name, (cosine, sine) in {"M = 0": (1, 0), "M = pi/2": (0, 1)}.items():
         entries = data["Lambda"] @ np.array([fmpq(cosine), fmpq(sine)], dtype=object)
@@ -66,6 +70,7 @@ def eq3_norm(data: Any) -> Result:
 
 
 def eq42_factor(data: Any) -> Identity:
+    """E1 Lambda E2 of (42), against Delta A of (2), as functions of M and e."""
     import sympy as sp
 
     n, e, M = sp.symbols("n e M", real=True)
@@ -83,12 +88,14 @@ def _rational(M: np.ndarray) -> Any:
 
 
 def sec4_n(data: Any, model: Any) -> Result:
+    """sqrt(gm (1 - e)^3 / r_p^3) [rad/s]; evidence: the other mean motions."""
     e = data["e"]
     value = arb(data["gm"] * (1 - e) ** 3 / data["r_p"] ** 3).sqrt()
     return Result(value, {name: n for name, n in model["n"].items() if name != "n_printed"})
 
 
 def sec4_observable(model: Any) -> Result:
+    """Number of output selections out of 64 with an observability matrix of rank 6."""
     found = model["observable"]
     return Result(
         fmpq(int(found["count"])),
@@ -101,6 +108,7 @@ def sec4_observable(model: Any) -> Result:
 
 
 def eq39_observable(model: Any) -> Statement:
+    """Rank of [C; CA] less 5, exact; for these two it is 6 if and only if (A, C) is observable, which is asserted."""
     A, C = model["A"]["n_printed"], model["C"]
     short = rank(np.vstack([C, C @ A]))
     assert is_observable(A, C) == (short == 6)

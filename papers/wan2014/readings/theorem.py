@@ -47,6 +47,7 @@ def draw() -> SimpleNamespace:
 
 
 def eq9_error() -> Identity:
+    """Rate of x by (1), (10) less that of the estimate by (6) to (8), against (9)."""
     s = draw()
     u = -s.K @ s.estimate
     rate = (s.A + s.dA) @ s.x + s.B @ u
@@ -55,6 +56,7 @@ def eq9_error() -> Identity:
 
 
 def eq11_loop() -> Identity:
+    """Rate of x under u = -K times the estimate, against (11) in x and e."""
     s = draw()
     rate = (s.A + s.dA) @ s.x - s.B @ s.K @ s.estimate
     return Identity(rate, (s.A + s.dA - s.B @ s.K) @ s.x + s.B @ s.K @ (s.x - s.estimate))
@@ -77,6 +79,7 @@ def derivative(s: SimpleNamespace) -> np.ndarray:
 
 
 def eq18_vdot() -> Identity:
+    """Derivative of x'Px + e'Pe along (9), (11) as a matrix, against (18)."""
     s = draw()
     loop = grid([[s.A + s.dA - s.B @ s.K, s.B @ s.K], [s.dA, s.F]])
     both = block([[s.P, 0], [s.P]])
@@ -101,6 +104,7 @@ def eq21(s: SimpleNamespace) -> np.ndarray:
 
 
 def eq21_matrix() -> Identity:
+    """(18) plus x'Qx + u'Ru, against (21)."""
     s = draw()
     return Identity(derivative(s) + block([[s.Q, 0], [zeros(6)]]) + thrust_cost(s), eq21(s))
 
@@ -124,6 +128,7 @@ def factors(s: SimpleNamespace) -> tuple[np.ndarray, np.ndarray]:
 
 
 def eq22_split() -> Identity:
+    """Psi + he(Delta Phi E) with the factors of (23), against (21)."""
     s = draw()
     delta, E = factors(s)
     phi = np.block([[s.Lambda, zeros(6)], [zeros(6), zeros(6)]])
@@ -131,6 +136,7 @@ def eq22_split() -> Identity:
 
 
 def eq24(s: SimpleNamespace) -> np.ndarray:
+    """The matrix of (24): the uncertain part of (22) bounded by the weight eps."""
     delta, E = factors(s)
     return psi(s) + s.eps * (delta @ delta.T) + (1 / s.eps) * (E.T @ E)
 
@@ -161,11 +167,13 @@ def complement(s: SimpleNamespace) -> np.ndarray:
 
 
 def eq26_schur() -> Identity:
+    """Schur complement of (26) as printed, against (24)."""
     s = draw()
     return Identity(complement(s), eq24(s))
 
 
 def eq26_twice() -> Identity:
+    """The same complement, against (24) with [K -K]'R[K -K] once more."""
     s = draw()
     return Identity(complement(s), eq24(s) + thrust_cost(s))
 
@@ -183,10 +191,12 @@ def eq14_congruence() -> Identity:
 
 
 def thm2_refs() -> Size:
+    """Size of (24), which the proof says is multiplied by diag(X, X, I)."""
     return Size(*eq24(draw()).shape)
 
 
 def thm2_refs_25() -> Size:
+    """Size of (25): block (1,1) of (26) and its corner."""
     first, _, corner = eq26(draw())
     size = first.shape[0] + corner.shape[0]
     return Size(size, size)
@@ -204,12 +214,14 @@ def eq29_sign() -> Statement:
 
 
 def eq29_minus() -> Identity:
+    """(29) with the corner -rho, against (15), whose block is the inverse of diag(P, P)."""
     s = draw()
     inverse = linalg.inverse(block([[s.P, 0], [s.P]]))
     return Identity(eq29(s, -s.rho), block([[-s.rho, s.xi.T], [-inverse]]))
 
 
 def eq30() -> Identity:
+    """(15) times diag(1/rho, I) on both sides, against (30)."""
     s = draw()
     eq15 = eq29(s, -s.rho)
     T = block([[1 / s.rho, 0], [identity(12)]])
@@ -244,6 +256,7 @@ def _corner(M: np.ndarray) -> Any:
 
 
 def eq37() -> Identity:
+    """Schur complement of (37) times w, against w/rho - 1, whose sign is that of w - rho."""
     s = draw()
     w, r = fmpq(17, 3), 1 / s.rho
     M = conditions.eq37(w, r)
