@@ -33,7 +33,7 @@ lint: test-environment ## the linters alone
 unit: test-environment ## the tests alone
 	@VENV=$(VENV)-test tools/test.sh unit
 
-faults: test-environment ## every fault test at full size; writes docs/reliability.md (an hour; RECONTROL_BUILT: a finished run)
+faults: test-environment ## every fault test at full size, after `make reproduce`; writes docs/reliability.md (over an hour)
 	@PYTHONPATH=src:. $(VENV)-test/bin/python tools/reliability.py --all
 
 bench: environment ## speed of the ensembles against plain loops; writes docs/performance.md (a minute)
