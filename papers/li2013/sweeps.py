@@ -1,7 +1,7 @@
 """Light solver runs for tables and searches: the paper's conditions called with CVXPY variables, block by block.
 
-Nothing here is a proof. The conditions are the functions of `conditions`, the solver is CLARABEL unless one is named, and
-the margin that counts is recomputed from the returned arrays. Proofs and named optima go through `problems` instead.
+Nothing here is a proof. The conditions are the functions of `conditions`, the solver is CLARABEL unless one is named,
+and the margin that counts is recomputed from the returned arrays. Proofs and named optima go through `problems`.
 """
 
 from __future__ import annotations

@@ -2,16 +2,19 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import Any
 
-import numpy as np
+from flint import fmpq
 
 from recontrol.exact.rational import rounded, to_float
+from recontrol.lmi import solvers
+from recontrol.lmi.model import build as build_model
 from recontrol.lmi.problem import Problem
 
 from .. import conditions as c
 from ..problems import STATE_FEEDBACK, build, theorem, with_gamma
-from .solving import centre, controller_of_point, gain_of, largest_margin, least_gamma, point
+from .solving import NoPointError, centre, controller_of_point, gain_of, largest_margin, least_gamma, point
 
 DECIMALS = 6  # of a C_f that a later step takes as exact data
 TORQUE = (c.eq19, c.eq20_derived)
@@ -49,25 +52,18 @@ def state_feedback(data: Any) -> dict[str, Any]:
 
 
 def _largest_ellipsoid(problem: Problem) -> Any:
-    """Point that maximises log det X, through the equivalent maximum of the geometric mean of its eigenvalues."""
+    """Point that maximises log det X, an objective that is not linear. Raises NoPointError."""
     import cvxpy
 
-    from recontrol.lmi.model import build as model_of
-
-    model = model_of(problem, _zero())
-    x = model.unknowns["X"]
+    model = build_model(problem, fmpq(0))
     v = problem.variables["X"]
-    X = cvxpy.reshape(v.basis() @ x, (6, 6), order="C")
+    X = cvxpy.reshape(v.basis() @ model.unknowns["X"], v.shape, order="C")
     program = cvxpy.Problem(cvxpy.Maximize(cvxpy.log_det(X)), model.problem.constraints)
-    program.solve(solver="CLARABEL", direct_solve_method="qdldl", max_threads=1)
-    unit = {"X": 0.1, "Z": 1.0}
-    return {n: problem.variables[n].matrix(np.asarray(model.unknowns[n].value)) * unit[n] for n in unit}
-
-
-def _zero() -> Any:
-    from flint import fmpq
-
-    return fmpq(0)
+    run = solvers.run(program, solvers.profile("CLARABEL"))
+    found = replace(model, problem=program).point_of(run) if run.outcome == solvers.OPTIMAL else None
+    if found is None:
+        raise NoPointError(f"largest log det X: CLARABEL says {run.words}")
+    return found
 
 
 def two_step(data: Any) -> dict[str, Any]:
