@@ -11,7 +11,9 @@ from typing import Any
 import numpy as np
 
 from recontrol.campaign.steppers import batched_expm
+from recontrol.exact.rational import to_float
 
+from .problems import half_units
 from .sweeps import floats
 
 LEVELS = 50
@@ -32,7 +34,7 @@ def jitter(rng: Any, count: int, data: Any) -> dict[str, np.ndarray]:
     """Settling of the position, largest thrust, distance at the end, and decay rate between the ends."""
     v = floats(data, "")
     A, B, K, h = v["A_print"], v["B"], v["K"], float(v["h"])
-    K = K + np.where(K == 0, 0.0, 5e-5) * rng.uniform(-1, 1, (count, *K.shape))
+    K = K + to_float(half_units(data)) * rng.uniform(-1, 1, (count, *K.shape))
     free, forced = transitions(A, B, h)
     direction = rng.standard_normal((count, 3))
     distance = np.linalg.norm(v["xi0"][:3, 0])

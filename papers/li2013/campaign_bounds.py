@@ -9,21 +9,19 @@ from flint import arb, fmpq
 
 from recontrol.campaign.proven import Bound, bounded, unproven
 from recontrol.campaign.switched import BITS, contraction, transitions
-from recontrol.exact.ball import box, precision
+from recontrol.exact.ball import precision
 from recontrol.exact.rational import from_float, identity, zeros
 
 from .campaign import BAND, DURATION, LEVELS
-from .problems import exact_data
+from .problems import exact_data, gain_box
 
-HALF_UNIT = fmpq(1, 20000)  # of the gain's fourth decimal
 NORM = "one quadratic norm falls over every interval, for every gain of the box"
 
 
 def jitter(data: Any) -> dict[str, Bound]:
     """Settling, thrust, distance at the end and mean rate."""
     exact = exact_data(data, "")
-    A, B, gain = exact["A_print"], exact["B"], exact["K"]
-    K = box(gain, np.where(gain == 0, fmpq(0), HALF_UNIT))
+    A, B, K = exact["A_print"], exact["B"], gain_box(data)
     periods = [exact["h"] * fmpq(k, LEVELS) for k in range(1, LEVELS + 1)]
     found = contraction(transitions(A, B, K, periods), periods)
     if found is None:

@@ -68,7 +68,7 @@ def pair_split(data: Any) -> dict[str, Any]:
 
     exact = pr.exact_data(data, "block=xy")
     A, B, K = (rational.to_float(exact[name]) for name in ("A_print", "B", "K"))
-    half = np.where(K == 0, 0.0, 5e-5)
+    half = rational.to_float(pr.half_units(data)[np.ix_((0, 1), pr.BLOCKS["xy"])])
     rng = np.random.default_rng(0)
     gains = [K, *(K + half * rng.uniform(-1, 1, K.shape) for _ in range(400))]
 

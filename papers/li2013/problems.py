@@ -52,10 +52,15 @@ def plant(w: fmpq, mass: fmpq) -> dict[str, np.ndarray]:
     return {"A": A_bar, "B": B_bar, "B1": B1_bar, "C2": np.hstack([rational.zeros(3, 6), rational.identity(3)])}
 
 
+def half_units(data: Any) -> np.ndarray:
+    """Half units of the last places of the printed gain (3, 9); none where it is zero, which counts as exact."""
+    half = data.half("K_bar")
+    return np.where(data["K_bar"] == 0, half * 0, half)
+
+
 def gain_box(data: Any) -> np.ndarray:
     """Balls (3, 9) of every gain that rounds to the print; the printed zeros are exact."""
-    K, half = data["K_bar"], data.half("K_bar")
-    return ball.box(K, np.where(K == 0, half * 0, half))
+    return ball.box(data["K_bar"], half_units(data))
 
 
 def exact_data(data: Any, case: str) -> dict[str, Any]:

@@ -9,15 +9,17 @@ from __future__ import annotations
 from typing import Any
 
 import numpy as np
+from flint import fmpq
 
 from recontrol.campaign.linear import abscissa, integral_square, settling_and_peak
+from recontrol.exact.rational import to_float
 
 from . import plant
 
 STEPS = {"ext": (0.1, 1201), "trad": (2.0, 1601)}
 """Sampling step [s] and number of samples: the second gain is some fifty times slower."""
 BAND = 0.05
-INERTIA_HALF_UNIT = 0.5  # kg m^2; the moments are printed as integers
+INERTIA_HALF_UNIT = fmpq(1, 2)  # kg m^2; the moments are printed as integers
 
 
 def starts(rng: Any, count: int, data: Any) -> np.ndarray:
@@ -32,7 +34,7 @@ def starts(rng: Any, count: int, data: Any) -> np.ndarray:
 def boxed_gain(rng: Any, count: int, data: Any, gain: str) -> np.ndarray:
     """Members (count, 3, 6) of the rounding box of a published gain."""
     centre = data.float(plant.GAINS[gain])
-    half = float(data["half_unit"]) * (centre != 0)
+    half = to_float(plant.half_unit(data, gain)) * (centre != 0)
     return centre + half * rng.uniform(-1, 1, (count, 3, 6))
 
 
@@ -71,7 +73,7 @@ def inertia_ext(rng: Any, count: int, data: Any) -> dict[str, np.ndarray]:
     """The extended gain over its box, moments of inertia over half a unit of their last digit."""
     rate = float(plant.orbital_rate(data))
     nominal = data.float("inertia")[0]
-    inertia = nominal + INERTIA_HALF_UNIT * rng.uniform(-1, 1, (count, 3))
+    inertia = nominal + to_float(INERTIA_HALF_UNIT) * rng.uniform(-1, 1, (count, 3))
     low = np.zeros((count, 3, 6))
     for i, row in enumerate(plant.torque_rows(inertia.T, rate)):
         for j, entry in enumerate(row):

@@ -18,10 +18,10 @@ from recontrol.exact.ball import ball
 from recontrol.exact.rational import from_float, identity, zeros
 
 from . import plant
+from .campaign import BAND, INERTIA_HALF_UNIT
 
 PIECES = {"ext": 16, "trad": 256}
 GRID = 0.02  # s
-BAND = 0.05
 TUBE = "comparison of the loop with the middle of its box, mode by mode"
 TOO_WIDE = "the box is too wide for the comparison with its middle"
 
@@ -50,7 +50,7 @@ def changed(data: Any, gain: str) -> list[Modes]:
 
 def of_inertia(data: Any) -> Modes:
     """Modes of the loop of K_ext over the boxes of gain, moments and orbital rate."""
-    inertia = [ball(j, fmpq(1, 2)) for j in plant.inertias(data)]
+    inertia = [ball(j, INERTIA_HALF_UNIT) for j in plant.inertias(data)]
     low = np.array(plant.torque_rows(inertia, plant.rate_interval(data)), dtype=object)
     lower = (low + plant.gain_box(data, "ext")) * np.array([[1 / j] for j in inertia], dtype=object)
     return modes(np.vstack([np.hstack([zeros(3), identity(3)]), lower]))

@@ -129,12 +129,19 @@ def scaled_gain(data: Any, name: str) -> np.ndarray:
     return units(data, name).gain(data[GAINS[name]])
 
 
+def half_unit(data: Any, name: str) -> fmpq:
+    """Half a unit of the last decimal of a published gain: its zeros are printed bare, all other entries share it."""
+    name = GAINS[name]
+    (half,) = set(data.half(name)[data[name] != 0])
+    return half
+
+
 def gain_box(data: Any, name: str, zeros_rounded: bool = False) -> np.ndarray:
-    """Rounding box of a published gain (3, 6): half a unit of the fourth decimal on every entry that is not zero.
+    """Rounding box of a published gain (3, 6): half a unit of the last decimal on every entry that is not zero.
 
     A printed 0 counts as exact unless ``zeros_rounded``.
     """
-    exact, half = data[GAINS[name]], data["half_unit"]
+    exact, half = data[GAINS[name]], half_unit(data, name)
     out = np.empty(exact.shape, dtype=object)
     for place in np.ndindex(exact.shape):
         wide = zeros_rounded or exact[place] != 0

@@ -31,7 +31,7 @@ def cancelled_coupling(data: Any, case: str) -> Result:
 def _altitudes(data: Any, case: str) -> tuple[arb, arb]:
     """Altitudes [km] at which the coupling rounds to the printed 0.0197."""
     ix, iy, iz = plant.inertias(data)
-    printed, half, radius = abs(data["K_trad"][0, 5]), data["half_unit"], data[plant.RADII[case]]
+    printed, half, radius = abs(data["K_trad"][0, 5]), plant.half_unit(data, "trad"), data[plant.RADII[case]]
 
     def altitude(coupling: fmpq) -> arb:
         rate = coupling / (ix + iz - iy)

@@ -8,6 +8,7 @@ import numpy as np
 from flint import arb, fmpq
 
 from recontrol.exact.ball import midpoint, precision, to_ball
+from recontrol.exact.rational import to_float
 
 from .. import plant
 
@@ -87,7 +88,7 @@ def _vertices(data: Any, case: str, gain: str) -> list[float]:
     places = np.argwhere(K != 0)
     signs = 2 * ((np.arange(2 ** len(places))[:, None] >> np.arange(len(places))) & 1) - 1
     gains = np.repeat(K[None], len(signs), axis=0)
-    gains[:, places[:, 0], places[:, 1]] += signs * float(data["half_unit"])
+    gains[:, places[:, 0], places[:, 1]] += signs * float(to_float(plant.half_unit(data, gain)))
     loops = si["A"] + si["B1"] @ gains
     unit = np.eye(6)
     operator = np.einsum("bij,kl->bikjl", loops, unit) + np.einsum("ij,bkl->bikjl", unit, loops)
