@@ -18,7 +18,7 @@ from recontrol.exact.polynomial import PRECISION
 from recontrol.exact.rational import diagonal, from_float, identity, rational, to_float, zeros
 from recontrol.lmi.scaling import power_of_two
 
-from . import recipe, sources
+from . import problems, recipe
 from .campaign import COEFFICIENT_HALF_UNIT
 from .certificates import BOX_UNITS
 from .loops import printed_reduced, reduced_loop
@@ -56,7 +56,7 @@ def along(found: Modes, row: Any, starts: Any) -> dict[str, Bound]:
 
 def full_order(data: Any) -> dict[str, Bound]:
     """K and L over the boxes of (52) and (54)."""
-    M = sources.problem_data(data, sources.FULL_BOX)["M"]
+    M = problems.problem_data(data, problems.FULL_BOX)["M"]
     row, both = np.hstack([data["C_yaw"], zeros(1, 4)]), np.vstack([identity(4), identity(4)])
     return along(modes(M), row, both)
 
@@ -76,7 +76,7 @@ def reduced_x1(data: Any) -> dict[str, Bound]:
 
 def scaled_box(data: Any) -> tuple[dict[str, Any], Any, Any]:
     """The box of (66)-(69) as channels in balanced units, the row of y and the starts of the satellite, exact."""
-    found = sources.problem_data(data, sources.REDUCED_BOX)
+    found = problems.problem_data(data, problems.REDUCED_BOX)
     units = [rational(x) for x in BOX_UNITS]
     out, into = diagonal(units), diagonal([1 / x for x in units])
     E, F = into @ found["E"], found["F"] @ out

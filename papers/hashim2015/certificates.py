@@ -19,21 +19,21 @@ from recontrol.lmi.problem import Problem
 from recontrol.lmi.proof import prove_feasible
 from recontrol.lmi.variables import symmetric
 
-from . import analysis, conditions, recipe, sources
+from . import analysis, conditions, problems, recipe
 from .model import AXES
 from .synthesis.lqr import multiplier, program
 
 PAPER = "hashim2015"
-SOURCE = "papers.hashim2015.sources:problem_data"
+SOURCE = "papers.hashim2015.problems:problem_data"
 BITS = 128
 BOX_UNITS = (1, 1, 1, 1, 1, 5, 2)
 
 
 def inverse_lqr(data: Any) -> dict[str, Any]:
     """No diagonal Q >= 0 gives (52) with R = 1: the third weight is negative over the whole rounding box."""
-    case = sources.CONTROLLER_BOX
+    case = problems.CONTROLLER_BOX
     with precision(BITS):
-        found = sources.problem_data(data, case)
+        found = problems.problem_data(data, case)
         problem = Problem(
             "inverse LQR", {}, [conditions.third_weight_is_negative], found, paper=PAPER, case=case, source=SOURCE
         )
@@ -44,20 +44,20 @@ def inverse_lqr(data: Any) -> dict[str, Any]:
 
 def loop_full(data: Any) -> dict[str, Any]:
     """[A-BK, BK; 0, A-LC] is stable for every K in the box of (52) and every L in that of (54)."""
-    case = sources.FULL_BOX
+    case = problems.FULL_BOX
     says = "the full-order loop is stable for every K and L that the print admits"
     with precision(BITS):
-        M = sources.problem_data(data, case)["M"]
+        M = problems.problem_data(data, case)["M"]
         return loops.prove_stable(M, name="full-order loop", says=says, paper=PAPER, case=case, source=SOURCE)
 
 
 def box_x1(data: Any) -> dict[str, Any]:
     """(66)-(69) fed with x1: stable for all sixteen entries anywhere in their half units."""
-    case = sources.REDUCED_BOX
+    case = problems.REDUCED_BOX
     says = "the printed reduced compensator fed with x1 is stable over its whole rounding box"
     context = {"paper": PAPER, "case": case, "source": SOURCE}
     return loops.prove_box_stable(
-        **sources.problem_data(data, case), units=BOX_UNITS, name="reduced loop", says=says, **context
+        **problems.problem_data(data, case), units=BOX_UNITS, name="reduced loop", says=says, **context
     )
 
 
@@ -82,27 +82,27 @@ def loops_full(model: Any, synthesis: Any) -> dict[str, Any]:
     """The full-order loop of every axis, recomputed gains in balls."""
     with precision(BITS):
         found = {axis: analysis.axis_full_loop(model, synthesis, axis) for axis in AXES}
-        return _all_axes(found, sources.FULL_LOOPS, "the full-order loop of every axis is stable")
+        return _all_axes(found, problems.FULL_LOOPS, "the full-order loop of every axis is stable")
 
 
 def loops_corrected(model: Any, synthesis: Any) -> dict[str, Any]:
     """The corrected reduced loop of every axis, y measured, recomputed gains in balls."""
     with precision(BITS):
         found = {axis: analysis.corrected_loop(model, synthesis, axis) for axis in AXES}
-        return _all_axes(found, sources.CORRECTED_LOOPS, "the corrected reduced loop of every axis is stable")
+        return _all_axes(found, problems.CORRECTED_LOOPS, "the corrected reduced loop of every axis is stable")
 
 
 def ace_stable(data: Any) -> dict[str, Any]:
     """A member of the rounding box of (55), lower right block with the printed 0 at (6,5), whose loop is stable."""
-    case = sources.STABLE_MEMBER
-    M = sources.problem_data(data, case)["M"]
+    case = problems.STABLE_MEMBER
+    M = problems.problem_data(data, case)["M"]
     return loops.prove_stable(M, name="loop of a member of (55)", paper=PAPER, case=case, source=SOURCE)
 
 
 def ace_unstable(data: Any) -> dict[str, Any]:
     """Another member of the same box whose loop is unstable: the print does not decide."""
-    case = sources.UNSTABLE_MEMBER
-    M = sources.problem_data(data, case)["M"]
+    case = problems.UNSTABLE_MEMBER
+    M = problems.problem_data(data, case)["M"]
     return loops.prove_unstable(M, name="loop of a member of (55)", paper=PAPER, case=case, source=SOURCE)
 
 

@@ -8,7 +8,7 @@ import pytest
 from flint import arb, fmpq
 from oracles import integrated_monodromy
 
-from papers.shi2016 import algebra, conditions, oracle, plant, problems
+from papers.shi2016 import algebra, conditions, plant, problems, riccati
 from papers.shi2016.certificates import bounds, theorems
 from papers.shi2016.readings import behaviour, equations, gains, lemmas
 from papers.shi2016.simulation import measures
@@ -52,9 +52,9 @@ def test_scaling_changes_no_norm(data):
     for name in ("trad", "ext"):
         unit, factors = plant.units(data, name), plant.scale_factors(data, name)
         scaled = plant.scaled(data, rate, name)
-        ratio = oracle.h2_squared(scaled, unit.gain(K)) * factors["h"] / oracle.h2_squared(si, K)
+        ratio = riccati.h2_squared(scaled, unit.gain(K)) * factors["h"] / riccati.h2_squared(si, K)
         assert abs(float(ratio) - 1) < 1e-12
-        ratio = oracle.effort_squared(scaled, unit.gain(K)) * factors["ws"] / oracle.effort_squared(si, K)
+        ratio = riccati.effort_squared(scaled, unit.gain(K)) * factors["ws"] / riccati.effort_squared(si, K)
         assert abs(float(ratio) - 1) < 1e-12
 
 
@@ -73,7 +73,7 @@ def test_oracle_agrees_with_the_bounded_real_block(data):
     def top(X):
         return np.linalg.eigvalsh(conditions.brl_fixed(X, midpoint(K), gamma=1.1, **given))[-1]
 
-    assert float(oracle.least_rho(scaled, K, "trad", g)) == pytest.approx(np.trace(solution(0.0)[:3, :3]), rel=1e-7)
+    assert float(riccati.least_rho(scaled, K, "trad", g)) == pytest.approx(np.trace(solution(0.0)[:3, :3]), rel=1e-7)
     assert abs(top(solution(0.0))) < 1e-9
     assert top(solution(1e-3)) < -1e-5
 
@@ -81,7 +81,7 @@ def test_oracle_agrees_with_the_bounded_real_block(data):
 def test_normalisations_of_the_bounded_real_lemma_differ_by_gamma(data):
     scaled, K = problems.source(data, "scaled:trad"), plant.scaled_gain(data, "trad")
     g = decimal("2")
-    ratio = oracle.least_rho(scaled, K, "std", g) / oracle.least_rho(scaled, K, "trad", g)
+    ratio = riccati.least_rho(scaled, K, "std", g) / riccati.least_rho(scaled, K, "trad", g)
     assert abs(float(ratio) - 2) < 1e-6
 
 

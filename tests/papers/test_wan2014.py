@@ -11,7 +11,7 @@ import pytest
 from flint import arb, fmpq
 from scipy.linalg import solve_continuous_lyapunov
 
-from papers.wan2014 import boxes, conditions, loop, model, pole_boxes, problems, rep
+from papers.wan2014 import boxes, conditions, loop, model, pole_boxes, problems, repaired
 from papers.wan2014.certificates import impossible
 from papers.wan2014.readings import observer
 from papers.wan2014.simulation import linear, metrics
@@ -167,17 +167,17 @@ def test_printed_decimals_themselves_are_no_solution():
 
 
 def test_cost_bound_is_above_the_lyapunov_cost_of_the_nominal_loop():
-    values = rep.source(data(), "L_corrected, e0_velocity")
+    values = repaired.source(data(), "L_corrected, e0_velocity")
     Acl, Q = (rational.to_float(values[k]) for k in ("Acl", "Qbar"))
     xi0 = rational.to_float(values["xi0"])[:, 0]
     nominal = xi0 @ solve_continuous_lyapunov(Acl.T, -Q) @ xi0
-    found = rep.cost_problem(data(), "L_corrected, e0_velocity", shape="block", spread=True).solve()
+    found = repaired.cost_problem(data(), "L_corrected, e0_velocity", shape="block", spread=True).solve()
     bound = found.value * float(rational.to_float(problems.Scale.cost))
     assert nominal < bound < 1.1 * nominal
 
 
 def test_same_lyapunov_matrix_for_both_is_refused():
-    problem = rep.cost_problem(data(), "L_corrected, e0_zero", shape="same", spread=True)
+    problem = repaired.cost_problem(data(), "L_corrected, e0_zero", shape="same", spread=True)
     assert problem.solve().outcome == "infeasible"
 
 
@@ -209,7 +209,7 @@ def test_observer_is_fed_the_clipped_thrust():
 
 def test_linear_model_without_eccentricity_has_the_lyapunov_cost():
     """Worst and best phase frame the nominal cost, which the Lyapunov equation gives."""
-    values = rep.source(data(), "L_corrected, e0_zero")
+    values = repaired.source(data(), "L_corrected, e0_zero")
     Acl, Q = (rational.to_float(values[k]) for k in ("Acl", "Qbar"))
     xi0 = rational.to_float(values["xi0"])[:, 0]
     nominal = xi0 @ solve_continuous_lyapunov(Acl.T, -Q) @ xi0
@@ -232,7 +232,7 @@ def test_margin_that_is_positive_gives_no_refutation():
 
 def test_certificate_of_a_bound_survives_a_file_with_sorted_names():
     """The unknowns are numbered in the order of the problem, which a file written with sorted keys does not show."""
-    problem = rep.thrust_problem(data(), "L_corrected, e0_velocity", "x")
+    problem = repaired.thrust_problem(data(), "L_corrected, e0_velocity", "x")
     _, certificate = bound_by_point(problem, problem.solve(margin="1e-7").point)
     stored = json.loads(json.dumps(certificate, sort_keys=True))
     found = verify.check(stored, ROOT)

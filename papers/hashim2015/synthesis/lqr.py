@@ -48,7 +48,7 @@ def program(plant: recipe.Plant, axis: str) -> Problem:
         maximise(conditions.cost),
         paper="hashim2015",
         case=axis,
-        source="papers.hashim2015.sources:problem_data",
+        source="papers.hashim2015.problems:problem_data",
     )
 
 

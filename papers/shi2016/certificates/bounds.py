@@ -15,7 +15,7 @@ from recontrol.lmi import enclosure
 from recontrol.lmi.conditions import condition
 from recontrol.lmi.proof import prove_feasible, prove_infeasible
 from recontrol.lmi.variables import symmetric
-from recontrol.systems import riccati
+from recontrol.systems.riccati import minimal_solution
 
 from .. import conditions as c
 from .. import plant, problems
@@ -72,7 +72,7 @@ def _decay_matrix(data: Any, rate: fmpq) -> np.ndarray:
     scaled, K = problems.source(data, "scaled:ext"), plant.scaled_gain(data, "ext")
     A = plant.closed_loop(scaled, K) + identity(6) * (rate / plant.scale_factors(data, "ext")["ws"])
     push = scaled["B1"] @ scaled["M"]
-    X = riccati.minimal_solution(A.T, push @ push.T + identity(6), scaled["N"].T @ scaled["N"])
+    X = minimal_solution(A.T, push @ push.T + identity(6), scaled["N"].T @ scaled["N"])
     return plant.units(data, "ext").quadratic(rounded(inverse(rounded(X, 12)), 10), back=True)
 
 

@@ -17,10 +17,10 @@ from recontrol.exact.rational import decimal, identity, rounded
 from recontrol.lmi.conditions import condition
 from recontrol.lmi.proof import prove_feasible, prove_infeasible
 from recontrol.lmi.variables import full, symmetric
-from recontrol.systems import riccati
+from recontrol.systems.riccati import minimal_solution
 
 from .. import conditions as c
-from .. import oracle, plant, problems
+from .. import plant, problems, riccati
 from ..problems import pick
 
 ADMITTED, BACKED_OFF = "1.01", "1.005"
@@ -35,9 +35,9 @@ def _si(data: Any, gain: str) -> tuple[str, dict[str, Any]]:
 
 
 def _brl_equation(data: Any, gain: str, g: str) -> tuple[np.ndarray, ...]:
-    """Matrices of the Riccati equation of (8) at level g, scaled units (see `oracle.bounded_real`)."""
+    """Matrices of the Riccati equation of (8) at level g, scaled units (see `riccati.bounded_real`)."""
     scaled, K = problems.source(data, f"scaled:{gain}"), plant.scaled_gain(data, gain)
-    return oracle.bounded_real(scaled, K, decimal(g))
+    return riccati.bounded_real(scaled, K, decimal(g))
 
 
 def _x_of_brl(data: Any, gain: str, g: str, *, decimals: int = 12, extra: int = 6, bits: int = 160) -> np.ndarray:
@@ -46,7 +46,7 @@ def _x_of_brl(data: Any, gain: str, g: str, *, decimals: int = 12, extra: int = 
     The extra source is 10^-extra I in scaled units, in which X is rounded to ``decimals``.
     """
     closed, source, feedback = _brl_equation(data, gain, g)
-    X = riccati.minimal_solution(closed.T, source + identity(6) * fmpq(1, 10**extra), feedback, bits=bits)
+    X = minimal_solution(closed.T, source + identity(6) * fmpq(1, 10**extra), feedback, bits=bits)
     back = plant.units(data, gain).covariance(rounded(X, decimals), back=True)
     return back * plant.scale_factors(data, gain)["h8"]
 
@@ -54,7 +54,7 @@ def _x_of_brl(data: Any, gain: str, g: str, *, decimals: int = 12, extra: int = 
 def _p_of_brl(data: Any, gain: str, g: str) -> np.ndarray:
     """P = X^{-1} (6, 6), exact, for X as in (8): the least one, which makes Tr(C2 P C2') small, SI."""
     closed, source, feedback = _brl_equation(data, gain, g)
-    P = riccati.minimal_solution(closed, feedback + identity(6) * fmpq(1, 10**6), source)
+    P = minimal_solution(closed, feedback + identity(6) * fmpq(1, 10**6), source)
     return plant.units(data, gain).quadratic(rounded(P, 12), back=True) * (1 / plant.scale_factors(data, gain)["h8"])
 
 

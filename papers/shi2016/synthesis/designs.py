@@ -18,7 +18,7 @@ from recontrol.lmi import enclosure
 from recontrol.lmi.problem import Problem
 from recontrol.lmi.proof import NotProvenError, prove_feasible
 
-from .. import oracle, plant, problems
+from .. import plant, problems, riccati
 
 LEVELS = ("1.001", "1.01", "1.1", "2")
 E1 = ("0.3", "0.1", "0.03", "0.01", "0.003")
@@ -31,7 +31,7 @@ def effort_of(data: Any, gain: str) -> fmpq:
     """Effort of a published gain, rounded down to 12 decimals [s^-1/2]."""
     rate = plant.exact_rate(data)
     with precision(plant.BITS):
-        effort = oracle.effort_squared(plant.matrices(data, rate), data[plant.GAINS[gain]]).sqrt()
+        effort = riccati.effort_squared(plant.matrices(data, rate), data[plant.GAINS[gain]]).sqrt()
         return fmpq(int(float((effort * 10**12).mid().floor())), 10**12)
 
 
@@ -55,8 +55,8 @@ def performance(data: Any, K: np.ndarray, name: str) -> dict[str, Any]:
         poles = np.linalg.eigvals(midpoint(loop)) * float(factors["ws"])
         return {
             "stable": True,
-            "h2": (oracle.h2_squared(matrices, exact) * factors["h"]).sqrt(),
-            "effort": (oracle.effort_squared(matrices, exact) * factors["ws"]).sqrt(),
+            "h2": (riccati.h2_squared(matrices, exact) * factors["h"]).sqrt(),
+            "effort": (riccati.effort_squared(matrices, exact) * factors["ws"]).sqrt(),
             "hinf": peak.value * data["z_weight"],
             "K": plant.units(data, name).gain(midpoint(exact), back=True),
             "spectral_abscissa": float(poles.real.max()),
@@ -111,7 +111,7 @@ def _h2_effort(data: Any, gain: str) -> dict[str, Any]:
     lower = _dual_bound(matrices, weight, bound)
     answer = problems.h2_effort(data, gain, bound).solve()
     with precision(plant.BITS):
-        published = oracle.h2_squared(matrices, plant.scaled_gain(data, gain)) * factors["h"]
+        published = riccati.h2_squared(matrices, plant.scaled_gain(data, gain)) * factors["h"]
         best = performance(data, K, gain)
         floor = (lower * factors["h"]).sqrt()
         return best | {

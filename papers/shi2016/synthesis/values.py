@@ -10,7 +10,7 @@ from flint import arb, fmpq
 from recontrol.exact.ball import precision, to_ball
 from recontrol.exact.rational import decimal, diagonal, from_float, identity, zeros
 
-from .. import oracle, plant, problems
+from .. import plant, problems, riccati
 
 LEVELS = ("1.0001", "1.001", "1.01", "1.1", "2", "10", "100", "1000")
 """g = gamma_inf / z_weight."""
@@ -28,11 +28,11 @@ def fixed_gain(data: Any) -> dict[str, Any]:
 def _fixed(data: Any, gain: str) -> dict[str, Any]:
     scaled, K = plant.scaled(data, plant.orbital_rate(data), gain), plant.scaled_gain(data, gain)
     with precision(plant.BITS):
-        h2 = oracle.h2_squared(scaled, K) * plant.scale_factors(data, gain)["h"]
+        h2 = riccati.h2_squared(scaled, K) * plant.scale_factors(data, gain)["h"]
     out: dict[str, Any] = {"h2_squared": h2, "levels": np.array([float(g) for g in LEVELS])}
-    for kind in oracle.KINDS:
-        unit = oracle.unit_of(data, kind, gain)
-        rho = [_ball(oracle.least_rho(scaled, K, kind, decimal(g)) * unit) for g in LEVELS]
+    for kind in riccati.KINDS:
+        unit = riccati.unit_of(data, kind, gain)
+        rho = [_ball(riccati.least_rho(scaled, K, kind, decimal(g)) * unit) for g in LEVELS]
         solved = {}
         for g in SOLVED_LEVELS:
             answer = problems.fixed(data, gain, kind, decimal(g)).solve()
@@ -86,7 +86,7 @@ def _member(data: Any, k: fmpq) -> dict[str, Any]:
     h8 = h / data["z_weight"]
     with precision(plant.BITS):
         return {
-            "rho_prt": oracle.least_rho(scaled, K, "prt", level) * (1 / h8),
-            "rho_trad": oracle.least_rho(scaled, K, "trad", level) * h8,
-            "h2": (oracle.h2_squared(scaled, K) * h).sqrt(),
+            "rho_prt": riccati.least_rho(scaled, K, "prt", level) * (1 / h8),
+            "rho_trad": riccati.least_rho(scaled, K, "trad", level) * h8,
+            "h2": (riccati.h2_squared(scaled, K) * h).sqrt(),
         }

@@ -7,13 +7,13 @@ from typing import Any
 from recontrol.lmi import loops, proof
 from recontrol.lmi.enclosure import bound_by_point
 
-from .. import model, rep
+from .. import model, repaired
 from ..problems import Scale
 
 
 def stable(data: Any, gain: str) -> dict[str, Any]:
     """Cost inequality with P > 0: the loop is stable for every admissible uncertainty of (3)."""
-    problem = rep.stability_problem(data, gain)
+    problem = repaired.stability_problem(data, gain)
     says = f"the printed loop with {gain} is stable for every uncertainty diag(Lambda), abs <= 1"
     return proof.prove_feasible(problem, problem.solve(margin="1e-5"), says=says)
 
@@ -28,7 +28,7 @@ def stable_L_corrected(data: Any) -> dict[str, Any]:
 
 def cost(data: Any, case: str) -> dict[str, Any]:
     """Upper bound of J over the unit of cost, P block, D diagonal, L corrected."""
-    problem = rep.cost_problem(data, f"L_corrected, {case}", shape="block", spread=True)
+    problem = repaired.cost_problem(data, f"L_corrected, {case}", shape="block", spread=True)
     says = f"J of the linear loop over the unit of cost, {case}"
     return bound_by_point(problem, problem.solve(margin="1e-8").point, says=says)[1]
 
@@ -47,7 +47,7 @@ def cost_e0_full(data: Any) -> dict[str, Any]:
 
 def thrust(data: Any, case: str, axis: str) -> dict[str, Any]:
     """Upper bound of the squared thrust of one axis over its limit: below 1 the limit is never reached."""
-    problem = rep.thrust_problem(data, f"L_corrected, {case}", axis)
+    problem = repaired.thrust_problem(data, f"L_corrected, {case}", axis)
     says = f"squared thrust over its limit, axis {axis}, {case}"
     return bound_by_point(problem, problem.solve(margin="1e-7").point, says=says)[1]
 

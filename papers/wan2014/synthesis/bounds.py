@@ -8,8 +8,8 @@ import numpy as np
 
 from recontrol.exact import rational
 
-from .. import rep
 from ..problems import AXES, rendezvous
+from ..repaired import cost_problem, loop_data, source, thrust_problem
 from .gains import COST_UNIT, summary
 
 CASES = ("e0_zero", "e0_velocity", "e0_full")
@@ -27,7 +27,7 @@ def repaired(data: Any) -> dict[str, Any]:
         name = f"L_corrected, {case}"
         for shape in ("block", "full"):
             for spread in (False, True):
-                problem = rep.cost_problem(data, name, shape=shape, spread=spread)
+                problem = cost_problem(data, name, shape=shape, spread=spread)
                 solvers = ("CLARABEL", "SDPA") if spread else ("CLARABEL",)
                 found = {solver: problem.solve(solver) for solver in solvers}
                 key = f"{case}_{shape}_{'diagonal' if spread else 'scalar'}"
@@ -36,9 +36,9 @@ def repaired(data: Any) -> dict[str, Any]:
                     "solvers": {s: {"value": f.value, "outcome": f.outcome} for s, f in found.items()},
                 }
         for axis, limit in limits(data).items():
-            solution = rep.thrust_problem(data, name, axis).solve(margin="1e-7")
+            solution = thrust_problem(data, name, axis).solve(margin="1e-7")
             thrust[f"{case}_{axis}"] = limit * float(np.sqrt(solution.value)) if solution.value else None
-    same = rep.cost_problem(data, "L_corrected, e0_zero", shape="same", spread=True).solve()
+    same = cost_problem(data, "L_corrected, e0_zero", shape="same", spread=True).solve()
     return {"cost": cost, "thrust": thrust, "same": {"outcome": same.outcome, "words": same.words}}
 
 
@@ -47,12 +47,12 @@ def bounds_of_gain(data: Any, K: np.ndarray) -> dict[str, Any]:
     exact = rational.rounded(np.asarray(K), 9)
     found: dict[str, Any] = {}
     for case in CASES[:2]:
-        values = rep.source(data, f"L_corrected, {case}") | rep.loop_data(data, exact, data["L_corrected"])
-        problem = rep.cost_problem(data, f"L_corrected, {case}", shape="block", spread=True, values=values)
+        values = source(data, f"L_corrected, {case}") | loop_data(data, exact, data["L_corrected"])
+        problem = cost_problem(data, f"L_corrected, {case}", shape="block", spread=True, values=values)
         solution = problem.solve()
         found[case] = {"cost": solution.value * COST_UNIT if solution.value else None}
         for axis, limit in limits(data).items():
-            answer = rep.thrust_problem(data, f"L_corrected, {case}", axis, values=values).solve(margin="1e-7")
+            answer = thrust_problem(data, f"L_corrected, {case}", axis, values=values).solve(margin="1e-7")
             found[case][axis] = limit * float(np.sqrt(answer.value)) if answer.value else None
     return found
 

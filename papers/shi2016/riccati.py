@@ -12,22 +12,22 @@ import numpy as np
 from flint import arb, fmpq
 
 from recontrol.exact.ball import precision, to_ball
-from recontrol.systems import riccati
+from recontrol.systems.riccati import SHIFT, bounds
 
 from . import plant
 
 KINDS = ("trad", "std", "prt")
 
 
-def least_rho(matrices: dict[str, np.ndarray], K: np.ndarray, kind: str, g: fmpq, shift: fmpq = riccati.SHIFT) -> arb:
+def least_rho(matrices: dict[str, np.ndarray], K: np.ndarray, kind: str, g: fmpq, shift: fmpq = SHIFT) -> arb:
     """Infimum of rho in scaled units. Raises NoSolutionError if g is not above the scaled H-infinity norm."""
     weights = {"trad": (g, g), "std": (g * g, fmpq(1)), "prt": (g, g)}[kind]
     with precision(160):
         closed, source, feedback = (to_ball(M) for M in bounded_real(matrices, K, g, weights))
         if kind == "prt":
-            found = riccati.bounds(closed, feedback, source, shift=shift)
+            found = bounds(closed, feedback, source, shift=shift)
         else:
-            found = riccati.bounds(closed.T, source, feedback, shift=shift)
+            found = bounds(closed.T, source, feedback, shift=shift)
         return found.trace(matrices["C2"])
 
 

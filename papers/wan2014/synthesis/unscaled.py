@@ -1,4 +1,4 @@
-"""A finding about tools: the same problems in SI units, unscaled, given to each solver."""
+"""The same problems in SI units, unscaled, given to each solver: how much the units matter."""
 
 from __future__ import annotations
 

@@ -20,7 +20,7 @@ from recontrol.lmi.variables import Variable, block_diagonal, diagonal, repeated
 from . import conditions, model
 from .problems import AXES, Scale
 
-SOURCE = "papers.wan2014.rep:source"
+SOURCE = "papers.wan2014.repaired:source"
 CHANNELS = 5
 
 
