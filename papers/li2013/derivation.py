@@ -32,6 +32,19 @@ def quadratic_form(
     return grown + memory + jump + _he(motion) + _he(average)
 
 
+def summands(
+    point: Mapping[str, np.ndarray], held: np.ndarray, slope: np.ndarray, h: Any, tau: Any, memory: Any
+) -> tuple[Any, Any, Any]:
+    """V_1, V_2, V_3 of (25) at the age `tau` of the sample for xi(s) = held + (s - t_k) slope, columns (n, 1).
+
+    `memory` stands for the integral of exp(-2 alpha (t - s)) from t_k to t; a bound of it gives a bound of V_2.
+    """
+    xi, left = held + tau * slope, h - tau
+    gap = held - xi
+    sizes = [(x.T @ point[name] @ x)[0, 0] for name, x in (("P1", xi), ("P2", slope), ("P3", gap))]
+    return sizes[0], left * memory * sizes[1], left * sizes[2]
+
+
 def _he(M: np.ndarray) -> np.ndarray:
     return M + M.T
 

@@ -6,6 +6,7 @@ A_bar + B_bar K_bar (floats); `exact` -> B, B1, C2, K, xi0; `u0` = K_bar xi(0); 
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from typing import Any
 
 import numpy as np
@@ -59,6 +60,23 @@ def rates(data: Any) -> dict[str, Any]:
         }
 
 
+def slow_pairs(data: Any) -> Callable[[float, np.ndarray], float]:
+    """Difference of the real parts of the two slow in-plane pairs [1/s] at an orbital rate [rad/s] and a gain (2, 6).
+
+    A fast rate leaves one slow pair and one at the rate itself; then these two are compared.
+    """
+    exact = pr.exact_data(data, "block=xy")
+    A, B = (rational.to_float(exact[name]) for name in ("A_print", "B"))
+
+    def split(w: float, gain: np.ndarray) -> float:
+        A[2, 0], A[2, 3], A[3, 2] = 3 * w * w, 2 * w, -2 * w
+        poles = np.linalg.eigvals(A + B @ gain)
+        slow = poles[poles.imag > 0.1]
+        return float(abs(slow[1].real - slow[0].real))
+
+    return split
+
+
 def pair_split(data: Any) -> dict[str, Any]:
     """Difference of the real parts of the two slow in-plane pairs [1/s] at each rate, and the rate where it is least.
 
@@ -67,17 +85,10 @@ def pair_split(data: Any) -> dict[str, Any]:
     from scipy.optimize import minimize_scalar
 
     exact = pr.exact_data(data, "block=xy")
-    A, B, K = (rational.to_float(exact[name]) for name in ("A_print", "B", "K"))
+    K, split = rational.to_float(exact["K"]), slow_pairs(data)
     half = rational.to_float(pr.half_units(data)[np.ix_((0, 1), pr.BLOCKS["xy"])])
     rng = np.random.default_rng(0)
     gains = [K, *(K + half * rng.uniform(-1, 1, K.shape) for _ in range(400))]
-
-    def split(w: float, gain: np.ndarray) -> float:
-        A[2, 0], A[2, 3], A[3, 2] = 3 * w * w, 2 * w, -2 * w
-        poles = np.linalg.eigvals(A + B @ gain)
-        slow = poles[poles.imag > 0.1]
-        return float(abs(slow[1].real - slow[0].real))
-
     out: dict[str, Any] = {}
     for name, w in (("w-print", data["w-print"]), ("w-geo", data["w-geo"]), ("w=0", fmpq(0))):
         values = [split(float(rational.to_float(w)), gain) for gain in gains]

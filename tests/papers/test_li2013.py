@@ -5,23 +5,37 @@ from pathlib import Path
 import numpy as np
 import pytest
 from flint import fmpq
+from scipy.integrate import quad
 
 from papers.li2013 import conditions as c
 from papers.li2013 import problems as pr
 from papers.li2013.certificates.performance import pair_vectors
 from papers.li2013.certificates.void import pattern
-from papers.li2013.derivation import quadratic_form, some_point, trajectory_gap
+from papers.li2013.derivation import quadratic_form, some_point, summands, trajectory_gap
+from papers.li2013.readings import blocks as blocks_readings
+from papers.li2013.readings import plant as readings
+from papers.li2013.readings.blocks import last_term_of_27
 from papers.li2013.simulation.functional import along
 from papers.li2013.simulation.loops import SINE, loop
 from papers.li2013.simulation.nonlinear import rates
 from papers.li2013.sweeps import floats, search
 from papers.li2013.synthesis.inputs import _quadratic
+from recontrol.claims.identity import equal
+from recontrol.claims.values import Size, enclosure
 from recontrol.exact import rational
 from recontrol.exact.linalg import is_positive_definite
 from recontrol.paper import load
 from recontrol.simulate.sampled import held_linear, held_nonlinear, periodic
 
 ROOT = Path(__file__).parents[2]
+
+
+def lower_end(margin):
+    return enclosure(margin)[0]
+
+
+def upper_end(margin):
+    return enclosure(margin)[1]
 
 
 @pytest.fixture(scope="module")
@@ -68,6 +82,68 @@ def test_multiples_of_the_identity_satisfy_the_print(data, gain):
         hat = c.phi_hat(**point, A=exact[A], decay=exact["decay"], faults=c.PRINTED, **loop)
         assert is_positive_definite(-hat)
     assert not is_positive_definite(-c.phi(**point, A=exact["A_print"], faults=c.DERIVED, **loop))
+
+
+def test_rate_with_the_lost_exponent_is_the_one_that_is_carried(data):
+    digits, exponent = readings._factors(data)
+    assert digits / 10**exponent == data["w-print"]
+    assert all(lower_end(margin) > 0 for margin in readings.s4_w_exponent(data).value.margins.values())
+
+
+@pytest.mark.parametrize("exponent", [1, 2, 4, 5])
+def test_any_other_exponent_is_refused(data, monkeypatch, exponent):
+    monkeypatch.setattr(readings, "_factors", lambda _: (fmpq(1117, 1000), exponent))
+    assert any(upper_end(margin) < 0 for margin in readings.s4_w_exponent(data).value.margins.values())
+
+
+def test_literal_product_lies_inside_the_earth(data):
+    (margin,) = readings.s4_w_literal(data).value.margins.values()
+    assert margin < 0
+
+
+def test_functional_gives_the_weight_that_27_needs():
+    import sympy as sp
+
+    printed, due = last_term_of_27()
+    weights = {symbol.name: symbol for symbol in printed.free_symbols | due.free_symbols}
+    assert sp.simplify(printed - due) != 0
+    assert sp.simplify(printed.subs(weights["P3"], weights["P2"]) - due) == 0
+
+
+def test_summands_of_the_functional_against_quadrature():
+    rng = np.random.default_rng(4)
+    held, slope = rng.normal(size=(9, 1)), rng.normal(size=(9, 1))
+    point = {name: np.diag(rng.uniform(1, 2, 9)) for name in ("P1", "P2", "P3")}
+    h, tau, alpha = 0.5, 0.3, 0.7
+    memory, _ = quad(lambda s: np.exp(-2 * alpha * (tau - s)), 0, tau)
+    V1, V2, V3 = summands(point, held, slope, h, tau, memory)
+    xi = held + tau * slope
+    energy, _ = quad(lambda s: (slope.T @ point["P2"] @ slope).item() * np.exp(-2 * alpha * (tau - s)), 0, tau)
+    assert pytest.approx((xi.T @ point["P1"] @ xi).item()) == V1
+    assert pytest.approx((h - tau) * energy) == V2
+    assert pytest.approx((h - tau) * ((held - xi).T @ point["P3"] @ (held - xi)).item()) == V3
+
+
+def test_order_of_48_turns_with_the_sign_of_the_weights(data, monkeypatch):
+    (margin,) = blocks_readings.eq48_order(data).margins.values()
+    assert margin < 0
+    minus = dict.fromkeys(("P1", "P2", "P3"), rational.identity(9) * -1)
+    monkeypatch.setattr(blocks_readings, "summands", lambda _, *motion: summands(minus, *motion))
+    (margin,) = blocks_readings.eq48_order(data).margins.values()
+    assert margin > 0
+
+
+def test_zero_terms_make_a_quadratic_form_as_a_sum_only(data):
+    printed = blocks_readings.eq38_product(data)
+    assert not equal(printed.left, printed.right)
+    h22 = blocks_readings.h22_twice(data)
+    assert not equal(h22.left, h22.right)
+    assert equal(h22.right, h22.right.T)
+
+
+def test_sizes_follow_from_the_data(data):
+    assert readings.eq36_shape(data) == Size(9, 1)
+    assert readings.eq13_shape(data) == Size(3, 3)
 
 
 def test_decay_bounds_enclose_the_exponential():

@@ -6,7 +6,7 @@ from collections.abc import Callable
 from typing import Any
 
 import numpy as np
-from flint import fmpq
+from flint import fmpq, fmpq_poly
 
 from recontrol.claims.proofs import accepted
 from recontrol.claims.values import Identity, Result, Statement
@@ -16,7 +16,7 @@ from recontrol.systems import sampled
 
 from .. import conditions as c
 from .. import problems as pr
-from ..derivation import quadratic_form, some_point, trajectory_gap
+from ..derivation import quadratic_form, some_point, summands, trajectory_gap
 from .support import loop
 
 DIFFERENCE: dict[str, tuple[str, Callable[..., np.ndarray]]] = {
@@ -118,10 +118,11 @@ def thm2(data: Any, certificates: Any) -> Result:
     return Result(Identity(np.vstack(left), np.vstack(right)), evidence, certificate="controls")
 
 
-def h22_twice() -> Identity:
-    """T2' + T2' against T2 + T2'."""
-    T2 = some_point(3)["T2"]
-    return Identity(T2.T + T2.T, T2 + T2.T)
+def h22_twice(data: Any) -> Identity:
+    """T2' + T2' as printed, against block 22 of the form at the age h, where the term in P2 vanishes."""
+    point = some_point(9)
+    _, form = _pair(data, c.PRINTED, data["h"], point)
+    return Identity(point["T2"].T + point["T2"].T, form[9:18, 9:18])
 
 
 def eq26_equal() -> Identity:
@@ -133,33 +134,59 @@ def eq26_equal() -> Identity:
     return Identity((h - tau) * (1 - sp.exp(-2 * alpha * tau)), sp.diff(V2, tau))
 
 
+def last_term_of_27() -> tuple[Any, Any]:
+    """Scalar, along xi' = s: the last term of (27) as printed, and V_2' of (25) less the other two terms of (27)."""
+    import sympy as sp
+
+    s, tau, h, alpha, P2, P3 = sp.symbols("s tau h alpha P2 P3", positive=True)
+    memory = sp.integrate(P2 * s**2 * sp.exp(-2 * alpha * (tau - s)), (s, 0, tau))
+    V2 = (h - tau) * memory
+    return (h - tau) * P3 * tau**2, sp.diff(V2, tau) + memory + 2 * alpha * (h - tau) * memory
+
+
 def eq27_weight() -> Identity:
-    """The last term of (27) with P3 against P2."""
-    point = some_point(3)
-    return Identity(point["P3"], point["P2"])
+    """The last term of (27) with P3, against what the functional (25) gives."""
+    return Identity(*last_term_of_27())
 
 
 def eq33_sign() -> Statement:
-    """Jensen's inequality as printed for f(s) = s on [0, 1]: 1/4 - 1/3."""
-    return Statement({"right less left side": fmpq(1, 4) - fmpq(1, 3)})
+    """Jensen's inequality as printed for f(s) = s on [0, 1]: squared integral less the integral of the square."""
+    f = fmpq_poly([0, 1])
+    mean, square = f.integral()(fmpq(1)), (f * f).integral()(fmpq(1))
+    return Statement({"right less left side": mean**2 - square})
 
 
-def eq38_product() -> Identity:
-    """Product against sum of the two zero terms, before they vanish."""
-    import sympy as sp
+def eq38_product(data: Any) -> Identity:
+    """(38) as printed, its zero terms multiplied, against zeta'Pi zeta of (40); neither vanishes at this zeta."""
+    point, tau = some_point(9), data["h"] / 3
+    draws = np.random.default_rng(3).integers(-9, 10, (36, 1)).tolist()
+    zeta = rational.matrix(draws)
 
-    first, second = sp.symbols("first second")
-    return Identity(first * second, first + second)
+    def value(*zero: str) -> Any:
+        kept = {name: M * 0 if name[0] in zero else M for name, M in point.items()}
+        return (zeta.T @ _pair(data, c.DERIVED, tau, kept)[1] @ zeta)[0, 0]
+
+    base = value("T", "S")
+    motion, average = value("S") - base, value("T") - base
+    return Identity(base + motion * average, value())
 
 
 def eq41_affine() -> Identity:
-    """Second derivative of tau exp(-2 alpha tau) against zero."""
+    """Second derivative of the factor tau exp(-2 alpha tau) of Pi_44 against zero."""
     import sympy as sp
 
     tau, alpha = sp.symbols("tau alpha", positive=True)
     return Identity(sp.diff(tau * sp.exp(-2 * alpha * tau), tau, 2), sp.Integer(0))
 
 
-def eq48_order() -> Statement:
-    """V_1 - V for P3 = 1, h - tau = 1/2 and a gap of 1: minus V_3 (V_2 only adds)."""
-    return Statement({"V_1 - V": -fmpq(1, 2)})
+def eq48_order(data: Any) -> Statement:
+    """V_1 - V of (24), (25) for P_i = I along the first slope of the loop, half an interval after t_k: an upper bound.
+
+    The integral in V_2 is at least tau exp(-2 alpha h), and that exponential at least `decay`.
+    """
+    exact = pr.exact_data(data, "")
+    xi0, tau = exact["xi0"], exact["h"] / 2
+    slope = (exact["A_print"] + exact["B"] @ exact["K"]) @ xi0
+    point = dict.fromkeys(("P1", "P2", "P3"), rational.identity(9))
+    V1, V2, V3 = summands(point, xi0, slope, exact["h"], tau, tau * exact["decay"])
+    return Statement({"V_1 - V, at most": V1 - (V1 + V2 + V3)})

@@ -5,11 +5,15 @@ from __future__ import annotations
 from typing import Any
 
 import numpy as np
-from flint import fmpq
+from flint import arb, fmpq
 
-from recontrol.claims.values import Identity, Result, Size, Statement
+from recontrol.claims.values import Approx, Identity, Result, Size, Statement
+from recontrol.exact import rational
+from recontrol.exact.ball import precision
 
 from .. import problems as pr
+from ..model import slow_pairs
+from ..simulation.loops import SINE
 
 
 def s4_w_radius(model: Any) -> Any:
@@ -22,15 +26,50 @@ def s4_w_period(model: Any) -> Any:
     return model["rates"]["from_period"]
 
 
-def s4_w_exponent(data: Any, model: Any) -> Result:
-    """The digits with the exponent -3, and the orbit they belong to."""
-    rates = model["rates"]
-    return Result(data["w-print"], {"radius [km]": rates["radius_of_print"], "period [s]": rates["period_of_print"]})
+PAIR_ERROR = 1e-7
+"""Error of a pole [1/s]: a nearly double pole of a matrix of order 1 moves by the root of the rounding, 1.5e-8."""
 
 
-def s4_w_literal() -> fmpq:
-    """1.117 times 10.3."""
-    return fmpq(1117, 1000) * fmpq(103, 10)
+def _factors(data: Any) -> tuple[fmpq, int]:
+    """The printed digits and the exponent in the second factor "10.3", which has lost its sign."""
+    mantissa, power = data.printed("w-text").rows[0]
+    return mantissa.real.value, int(power.text.split(".")[1])
+
+
+def _radius(data: Any, rate: fmpq) -> arb:
+    """Radius [km] of the circular orbit with this rate [rad/s]: w^2 r^3 = gm."""
+    with precision(128):
+        return (arb(data["gm_earth"]) / rate**2) ** (arb(1) / 3)
+
+
+def s4_w_exponent(data: Any) -> Result:
+    """The exponent with a minus sign: the orbit lies outside the Earth, with a plus sign inside [km].
+
+    And the published gain shows the rate: its slow in-plane pole pairs have more nearly equal real parts [1/s] than at
+    the neighbouring powers of ten and at the rate of the printed radius and period.
+    """
+    digits, exponent = _factors(data)
+    rate, split = digits / 10**exponent, slow_pairs(data)
+    gain = rational.to_float(pr.exact_data(data, "block=xy")["K"])
+    found = split(float(rate), gain)
+    margins: dict[str, Any] = {
+        "radius less that of the Earth": _radius(data, rate) - data["earth_radius"],
+        "radius of the Earth less that with the exponent 3": data["earth_radius"]
+        - _radius(data, digits * 10**exponent),
+    }
+    others = {"ten times the rate": rate * 10, "a tenth of it": rate / 10, "24 h": data["w-geo"]}
+    for name, other in others.items():
+        margins[f"pole pairs apart, {name}"] = Approx(split(float(other), gain) - found, PAIR_ERROR)
+    with precision(128):
+        period = 2 * arb.pi() / rate
+    return Result(Statement(margins), {"radius [km]": _radius(data, rate), "period [s]": period})
+
+
+def s4_w_literal(data: Any) -> Result:
+    """The product of the two factors as the text has them: radius of its orbit less that of the Earth [km]."""
+    first, second = data["w-text"][0]
+    radius = _radius(data, first * second)
+    return Result(Statement({"radius less that of the Earth": radius - data["earth_radius"]}), {"radius [km]": radius})
 
 
 def s4_r_period(model: Any) -> Result:
@@ -123,7 +162,8 @@ def eq9_track(data: Any, model: Any, simulation: Any, case: str) -> Result:
 def eq20_data(data: Any) -> Statement:
     """(20) needs d_bar of finite energy: minus the mean power of y_r and of the sines of sec. 4."""
     reference = sum((y * y for y in data["y_r"].flat), fmpq(0))
-    return Statement({"minus mean power of y_r": -reference, "minus mean power of d": -3 * fmpq(2) ** 2 / 2})
+    disturbance = sum((fmpq(int(amplitude)) ** 2 for amplitude in SINE), fmpq(0)) / 2
+    return Statement({"minus mean power of y_r": -reference, "minus mean power of d": -disturbance})
 
 
 def eq54_weight(data: Any) -> Identity:
@@ -141,9 +181,10 @@ def s4_V0_dim(data: Any) -> Size:
     return Size(pr.exact_data(data, "")["xi0"].shape[0], 1)
 
 
-def eq36_shape() -> Size:
-    """xi' and A_bar xi are columns."""
-    return Size(9, 1)
+def eq36_shape(data: Any) -> Size:
+    """The factor of (36) holds A_bar xi, a column."""
+    exact = pr.exact_data(data, "")
+    return Size(*(exact["A_print"] @ exact["xi0"]).shape)
 
 
 def eq46_shape(data: Any) -> Size:
@@ -151,17 +192,11 @@ def eq46_shape(data: Any) -> Size:
     return Size(*np.transpose(data["K_bar"]).shape)
 
 
-def eq13_shape() -> Size:
-    """K_e acts on e in R^3 and gives three thrusts."""
-    return Size(3, 3)
+def eq13_shape(data: Any) -> Size:
+    """K_e is what K_bar has beyond the gain of x: as many rows as thrusts, as many columns as e has entries."""
+    return Size(*data["K_bar"][:, data["x0"].shape[1] :].shape)
 
 
-def cited() -> Identity:
-    """Equations meant, against the numbers cited: the functional, the control law, the zero terms."""
-    return Identity(_column([3, 2, 37]), _column([24, 7, 36]))
-
-
-def _column(values: list[int]) -> np.ndarray:
-    out = np.empty((len(values), 1), dtype=object)
-    out[:, 0] = [fmpq(value) for value in values]
-    return out
+def cited(data: Any) -> Identity:
+    """Numbers of the equations cited, against those of the equations that are what the text calls them."""
+    return Identity(data["cited"], data["cited_meant"])
