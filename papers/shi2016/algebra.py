@@ -6,7 +6,13 @@ form in which neighbouring inverses cancel. Identities of block matrices are lis
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from typing import Any
+
+import numpy as np
+from flint import fmpq
+
+from recontrol.exact import rational
 
 SYMMETRIC = ("X", "Y", "P", "Z", "Psi", "Pi", "Ai")
 INVERSES = {("P", "Pi"), ("X", "Y"), ("Q", "W"), ("Qt", "Wt"), ("A11", "Ai")}
@@ -106,6 +112,51 @@ def schur(A: Block, inverse: Any) -> Block:
     """Schur complement of the last diagonal block, whose inverse is given: A11 - A12 A22^{-1} A21."""
     n = len(A) - 1
     return normal([[A[i][j] - A[i][n] * inverse * A[n][j] for j in range(n)] for i in range(n)])
+
+
+def exchange(block: Block, images: Mapping[str, Any]) -> Block:
+    """The block with every symbol named replaced by its image at once, and its transpose by the image's transpose."""
+    import sympy as sp
+
+    pairs = {symbol(name): image for name, image in images.items()}
+    pairs |= {T(old): T(new) for old, new in pairs.items()}
+    return normal([[sp.sympify(entry).subs(pairs, simultaneous=True) for entry in row] for row in block])
+
+
+def evaluate(block: Block, values: Mapping[str, np.ndarray]) -> np.ndarray:
+    """The block matrix for rational matrices in place of the symbols; "Qt" is the transpose of "Q".
+
+    A number on the diagonal is a multiple of the identity. Raises ValueError for a row of blocks without a symbol and
+    for a number other than zero off the diagonal.
+    """
+    grid = [[_evaluated(entry, values) for entry in row] for row in block]
+    heights = [next((M.shape[0] for M in row if M.ndim), 0) for row in grid]
+    if 0 in heights:
+        raise ValueError(f"block row {heights.index(0) + 1} has no symbol that gives its size")
+
+    def filled(M: np.ndarray, i: int, j: int) -> np.ndarray:
+        if M.ndim:
+            return M
+        if i != j and M != 0:
+            raise ValueError(f"block ({i + 1},{j + 1}) is the number {M}, which has no size")
+        return M * rational.identity(heights[i]) if i == j else rational.zeros(heights[i], heights[j])
+
+    return np.block([[filled(M, i, j) for j, M in enumerate(row)] for i, row in enumerate(grid)])
+
+
+def _evaluated(entry: Any, values: Mapping[str, np.ndarray]) -> np.ndarray:
+    """One entry; a plain number stays an array without axes."""
+    import sympy as sp
+
+    total = np.array(fmpq(0), dtype=object)
+    for term in sp.Add.make_args(sp.expand(entry)):
+        number, factors = _split(term)
+        value = np.array(fmpq(int(number.p), int(number.q)), dtype=object)
+        for k, factor in enumerate(factors):
+            M = values[factor.name] if factor.name in values else values[factor.name[:-1]].T
+            value = value @ M if k else value * M
+        total = total + value
+    return np.asarray(total, dtype=object)
 
 
 def flat(*blocks: Any) -> tuple[Any, ...]:

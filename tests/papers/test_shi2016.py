@@ -19,6 +19,7 @@ from recontrol.claims import identity
 from recontrol.exact.ball import midpoint
 from recontrol.exact.linalg import is_positive_definite
 from recontrol.exact.rational import decimal, from_float
+from recontrol.exact.rational import matrix as decimal_matrix
 from recontrol.lmi import verify
 from recontrol.systems.riccati import float_minimal_solution
 
@@ -151,6 +152,40 @@ def test_misprints_are_refuted_and_their_corrections_hold():
     ):
         assert not identity.equal(wrong().left, wrong().right)
         assert identity.equal(right().left, right().right)
+
+
+def dropped(condition):
+    """The condition with N replaced by zero."""
+
+    def changed(X, Q, N, A, B):
+        return condition(X, Q, 0 * N, A, B)
+
+    return changed
+
+
+@pytest.mark.parametrize("name", ["thm1_iii", "thm1_iv"])
+def test_chain_to_the_conditions_of_theorem_1_needs_their_slack(monkeypatch, name):
+    reading = {"thm1_iii": lemmas.chain_21_26, "thm1_iv": lemmas.chain_29_30}[name]
+    assert identity.equal(reading().left, reading().right)
+    monkeypatch.setattr(conditions, name, dropped(getattr(conditions, name)))
+    assert not identity.equal(reading().left, reading().right)
+
+
+def test_dual_needs_the_transposes():
+    L, C = algebra.symbols("L C")
+    right = algebra.exchange(lemmas.eq25(), {"L": algebra.T(L), "B": algebra.T(C)})
+    wrong = algebra.exchange(lemmas.eq25(), {"L": L, "B": algebra.T(C)})
+    assert identity.equal(algebra.flat(right), algebra.flat(lemmas.eq29()))
+    assert not identity.equal(algebra.flat(wrong), algebra.flat(lemmas.eq29()))
+
+
+def test_a_block_of_symbols_takes_the_values_of_its_matrices():
+    Q, B = algebra.symbols("Q B")
+    values = {"Q": decimal_matrix("1 2\n3 4"), "B": decimal_matrix("5\n6")}
+    found = algebra.evaluate([[2 * Q * algebra.T(Q), B], [algebra.T(B), -1]], values)
+    assert (found == decimal_matrix("10 22 5\n22 50 6\n5 6 -1")).all()
+    with pytest.raises(ValueError, match="block row 2"):
+        algebra.evaluate([[Q, 0], [0, -1]], values)
 
 
 def test_coupling_cancels_at_the_printed_digits(data):

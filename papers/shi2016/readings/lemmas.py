@@ -1,16 +1,22 @@
-"""Lemmas 1 to 4 and the algebra of the proof of Theorem 1, in every dimension (see `algebra`)."""
+"""Lemmas 1 to 4 and the algebra of the proof of Theorem 1, in every dimension (see `algebra`) but for its last steps.
+
+These, from (25) to (26) and from (29) to (30), are compared at random rational matrices with the conditions solved.
+"""
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from typing import Any
 
+import numpy as np
 from flint import fmpq
 
 from recontrol.claims.proofs import provided, verified
 from recontrol.claims.values import Identity, Result, Size, Statement
+from recontrol.exact import rational
 
 from .. import algebra as a
-from .. import plant
+from .. import conditions, plant
 
 TIGHT = fmpq(1, 10**9)
 """Relative width within which an infimum must meet the norm that it should be."""
@@ -132,10 +138,41 @@ def eq20_transposed() -> Identity:
     return Identity(a.flat(Y * a.T(L) + W), a.flat(a.T(_upper20())))
 
 
-def chain_21_26() -> Identity:
-    """(21) and (22) have the Schur complements (20) and (21); (23) turns (22) into (25); N2 = Q'B1K gives (26)."""
+def eq25() -> a.Block:
+    """(25), with L for A + B1K and B for B2."""
     L, B = _loop()
-    Y, W, P, Pi, Q, X, A, B1, K = a.symbols("Y W P Pi Q X A B1 K")
+    Q, X = a.symbols("Q X")
+    side = a.T(Q) * L + X
+    return [[-Q - a.T(Q), side, a.T(Q) * B, a.T(Q)], [a.T(side), -X, 0, 0], [a.T(B) * Q, 0, -1, 0], [Q, 0, 0, -X]]
+
+
+def eq29() -> a.Block:
+    """(29), with L for A + B1K and C for C2."""
+    L, C, Q, X = a.symbols("L C Q X")
+    side = a.T(Q) * a.T(L) + X
+    return [[-Q - a.T(Q), side, a.T(Q) * a.T(C), a.T(Q)], [L * Q + X, -X, 0, 0], [C * Q, 0, -1, 0], [Q, 0, 0, -X]]
+
+
+def _numbers() -> dict[str, np.ndarray]:
+    """Random rational matrices of the paper's sizes (fixed seed), X symmetric."""
+    random = np.random.default_rng(2016)
+    sizes = {"A": (6, 6), "B1": (6, 3), "B2": (6, 3), "C2": (3, 6), "K": (3, 6), "Q": (6, 6), "X": (6, 6)}
+    found = {name: rational.matrix(random.integers(-9, 10, size).tolist()) * fmpq(1, 7) for name, size in sizes.items()}
+    return found | {"X": found["X"] + found["X"].T}
+
+
+def _tied(tie: Callable[..., np.ndarray], m: dict[str, np.ndarray]) -> np.ndarray:
+    """N2 or N3: what the tie of Theorem 1, N less its definition, leaves of N = 0, with the sign turned."""
+    return -tie(m["Q"], rational.zeros(6), m["B1"], m["K"])
+
+
+def chain_21_26() -> Identity:
+    """(21) and (22) have the Schur complements (20) and (21); (23) turns (22) into (25); N2 = Q'B1K gives (26).
+
+    The last step at random rational matrices: the condition (26) of Theorem 1 with this N2 against (25) at A + B1K.
+    """
+    L, B = _loop()
+    Y, W, P, Pi, Q, X = a.symbols("Y W P Pi Q X")
     up = L * Y + a.T(W)
     eq20 = [[B * a.T(B) + P - W - a.T(W), up], [a.T(up), -P]]
     eq21 = [[P - W - a.T(W), up, B], [a.T(up), -P, 0], [a.T(B), 0, -1]]
@@ -145,11 +182,11 @@ def chain_21_26() -> Identity:
     # (23) is applied with P = X^{-1}, that is P = Y.
     with_y = [[_rename(e, P, Y) for e in row] for row in eq22]
     M = [[Q, 0, 0, 0], [0, X, 0, 0], [0, 0, 1, 0], [0, 0, 0, X]]
-    side = a.T(Q) * L + X
-    eq25 = [[-Q - a.T(Q), side, a.T(Q) * B, a.T(Q)], [a.T(side), -X, 0, 0], [a.T(B) * Q, 0, -1, 0], [Q, 0, 0, -X]]
-    third = (a.flat(a.congruence(M, with_y)), a.flat(eq25))
-    fourth = (a.flat(a.T(Q) * A + a.T(Q) * B1 * K), a.flat(a.T(Q) * (A + B1 * K)))
-    pairs = (first, second, third, fourth)
+    third = (a.flat(a.congruence(M, with_y)), a.flat(eq25()))
+    m = _numbers()
+    eq26 = conditions.thm1_iii(m["X"], m["Q"], _tied(conditions.tied_n2, m), m["A"], m["B2"])
+    loop = {"L": m["A"] + m["B1"] @ m["K"], "B": m["B2"], "Q": m["Q"], "X": m["X"]}
+    pairs = (first, second, third, (eq26, a.evaluate(eq25(), loop)))
     return Identity(tuple(p[0] for p in pairs), tuple(p[1] for p in pairs))
 
 
@@ -160,16 +197,16 @@ def _rename(expression: Any, old: Any, new: Any) -> Any:
 
 
 def chain_29_30() -> Identity:
-    """(29) is (25) for the dual system; N3 = B1 K Q gives (30)."""
+    """(29) is (25) under the paper's transformation to the dual system, L to L' and B2 to C2'; N3 = B1 K Q gives (30).
+
+    The last step at random rational matrices: the condition (30) of Theorem 1 with this N3 against (29) at A + B1K.
+    """
     L, C = a.symbols("L C")
-    X, Q, A, B1, K = a.symbols("X Q A B1 K")
-    side = a.T(Q) * a.T(L) + X
-    dual = [[-Q - a.T(Q), side, a.T(Q) * a.T(C), a.T(Q)], [a.T(side), -X, 0, 0], [C * Q, 0, -1, 0], [Q, 0, 0, -X]]
-    lower = L * Q + X
-    eq29 = [[-Q - a.T(Q), side, a.T(Q) * a.T(C), a.T(Q)], [lower, -X, 0, 0], [C * Q, 0, -1, 0], [Q, 0, 0, -X]]
-    thirty = a.T(A * Q + B1 * K * Q) + X
-    closed = a.T(Q) * a.T(A + B1 * K) + X
-    return Identity((a.flat(dual), a.flat(thirty)), (a.flat(eq29), a.flat(closed)))
+    dual = a.exchange(eq25(), {"L": a.T(L), "B": a.T(C)})
+    m = _numbers()
+    eq30 = conditions.thm1_iv(m["X"], m["Q"], _tied(conditions.tied_n3, m), m["A"], m["C2"])
+    loop = {"L": m["A"] + m["B1"] @ m["K"], "C": m["C2"], "Q": m["Q"], "X": m["X"]}
+    return Identity((a.flat(dual), eq30), (a.flat(eq29()), a.evaluate(eq29(), loop)))
 
 
 def size_printed(data: Any) -> Size:
