@@ -11,6 +11,7 @@ from typing import Any
 import numpy as np
 from flint import fmpq
 
+from recontrol.campaign.draws import boxed, directions
 from recontrol.campaign.linear import abscissa, integral_square, settling_and_peak
 from recontrol.exact.rational import to_float
 
@@ -21,19 +22,6 @@ COEFFICIENT_HALF_UNIT = fmpq(1, 20000)
 """(1), (3), (6), (8) and (12), (14) print four decimals."""
 
 Outcomes = dict[str, np.ndarray]
-
-
-def starts(rng: Any, count: int, n: int) -> np.ndarray:
-    """Directions (count, n) of length one."""
-    x0 = rng.standard_normal((count, n))
-    return x0 / np.linalg.norm(x0, axis=1, keepdims=True)
-
-
-def boxed(rng: Any, count: int, data: Any, name: str) -> np.ndarray:
-    """Members (count, rows, columns) of the rounding box of a printed matrix or number."""
-    centre = np.atleast_2d(data.float(name))
-    half = np.atleast_2d(np.asarray(data.half(name), dtype=object)).astype(float)
-    return centre + half * rng.uniform(-1, 1, (count, *centre.shape))
 
 
 def assembled(blocks: list[list[np.ndarray]]) -> np.ndarray:
@@ -54,7 +42,7 @@ def full_order(rng: Any, count: int, data: Any) -> Outcomes:
     A, B, C = (data.float(name) for name in ("A_yaw", "B_yaw", "C_yaw"))
     K = A[:1] - boxed(rng, count, data, "A_c")[:, :1]
     L = boxed(rng, count, data, "L")
-    x0 = starts(rng, count, 4)
+    x0 = directions(rng, (count, 4))
     loop = assembled([[A - B @ K, B @ K], [np.zeros((4, 4)), A - L @ C]])
     return outcomes(loop, np.hstack([x0, x0]), np.append(C[0], np.zeros(4)))
 
@@ -70,7 +58,7 @@ def reduced_members(rng: Any, count: int, data: Any, measured: np.ndarray) -> np
 def reduced_x1(rng: Any, count: int, data: Any) -> Outcomes:
     """(66)-(69) over their boxes, fed with the first state; random starts, the compensator at zero."""
     loop = reduced_members(rng, count, data, np.eye(1, 4))
-    x0 = np.hstack([starts(rng, count, 4), np.zeros((count, 3))])
+    x0 = np.hstack([directions(rng, (count, 4)), np.zeros((count, 3))])
     return outcomes(loop, x0, np.append(data.float("C_yaw")[0], np.zeros(3)))
 
 
@@ -90,7 +78,7 @@ def rounded_plant(rng: Any, count: int, model: Any, synthesis: Any, axis: str) -
     A = np.broadcast_to(plant["A"], (count, n, n)).copy()
     A[:, 0] += spread[0] * (plant["A"][0] != 0)
     C = plant["C"] + spread[1][:, None] * (plant["C"] != 0)
-    x0 = starts(rng, count, n)
+    x0 = directions(rng, (count, n))
     for name, design in (("full", gains["full"]["exact"]), ("reduced", gains["corrected"])):
         A_c, B_c, C_c, D_c, L = (np.atleast_2d(design[key]) for key in ("A", "B", "C", "D", "L"))
         loop = assembled([[A + plant["B"] @ D_c @ C, plant["B"] @ C_c], [B_c @ C, A_c]])

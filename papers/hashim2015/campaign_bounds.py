@@ -12,7 +12,7 @@ from recontrol.campaign.growth import least_growth
 from recontrol.campaign.least import least_peak
 from recontrol.campaign.modes import Modes, modes
 from recontrol.campaign.proven import Bound, bounded, unproven
-from recontrol.campaign.tube import tube
+from recontrol.campaign.tube import TOO_WIDE, outcome_bounds
 from recontrol.exact.ball import precision
 from recontrol.exact.polynomial import PRECISION
 from recontrol.exact.rational import diagonal, from_float, identity, rational, to_float, zeros
@@ -29,29 +29,14 @@ GRID = 0.01  # s
 PEAK_TIMES = [0.1 * k for k in range(200)]  # s, among the samples of the outcomes
 REDUCED_RATE = fmpq(1, 10)  # 1/s
 GROWTHS = [fmpq(k, 100) for k in range(1, 30)]  # 1/s
-TUBE = "comparison of the box with its middle, mode by mode"
 LYAPUNOV = "one Lyapunov function and diagonal multipliers for the whole box"
-TOO_WIDE = "the box is too wide for the comparison with its middle"
 
 
 def along(found: Modes, row: Any, starts: Any) -> dict[str, Bound]:
     """Settling, peak, integral of the square and abscissa of loops from every start of length one."""
     least = least_peak(found, row, starts, PEAK_TIMES)
-    level = float(BAND) * least
-    tunnel = tube(found, row, [starts], step=GRID, until=level if level > 0 else 1e-3)
-    if tunnel is None:
-        return dict.fromkeys(("settling", "peak", "ise", "abscissa"), unproven(TOO_WIDE))
-    settling = bounded(
-        tunnel.settled(level) if least > 0 else None,
-        f"{TUBE}; every trajectory peaks above {least:.3g}",
-        otherwise="it is measured against a trajectory's own peak, of which no positive lower bound is proven",
-    )
-    return {
-        "settling": settling,
-        "peak": bounded(tunnel.peak, TUBE),
-        "ise": bounded(tunnel.energy, TUBE),
-        "abscissa": bounded(tunnel.rate, TUBE),
-    }
+    peaks, level = f"every trajectory peaks above {least:.3g}", float(BAND) * least
+    return outcome_bounds([found], row, [starts], step=GRID, level=level, peaks=peaks, integral="ise")
 
 
 def full_order(data: Any) -> dict[str, Bound]:

@@ -10,10 +10,9 @@ from typing import Any
 
 import numpy as np
 
+from recontrol.campaign.draws import boxed, directions
 from recontrol.campaign.steppers import batched_expm
-from recontrol.exact.rational import to_float
 
-from .problems import half_units
 from .sweeps import floats
 
 LEVELS = 50
@@ -33,13 +32,12 @@ def transitions(A: np.ndarray, B: np.ndarray, h: float) -> tuple[np.ndarray, np.
 def jitter(rng: Any, count: int, data: Any) -> dict[str, np.ndarray]:
     """Settling of the position, largest thrust, distance at the end, and decay rate between the ends."""
     v = floats(data, "")
-    A, B, K, h = v["A_print"], v["B"], v["K"], float(v["h"])
-    K = K + to_float(half_units(data)) * rng.uniform(-1, 1, (count, *K.shape))
+    A, B, h = v["A_print"], v["B"], float(v["h"])
+    K = boxed(rng, count, data, "K_bar", zeros_exact=True)
     free, forced = transitions(A, B, h)
-    direction = rng.standard_normal((count, 3))
     distance = np.linalg.norm(v["xi0"][:3, 0])
     x = np.zeros((count, A.shape[0]))
-    x[:, :3] = distance * direction / np.linalg.norm(direction, axis=1, keepdims=True)
+    x[:, :3] = directions(rng, (count, 3), distance)
     first = np.linalg.norm(x, axis=1)
     time, settled, thrust = np.zeros(count), np.zeros(count), np.zeros(count)
     # A trajectory stands still once its clock has passed the duration.

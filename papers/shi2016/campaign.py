@@ -11,6 +11,7 @@ from typing import Any
 import numpy as np
 from flint import fmpq
 
+from recontrol.campaign.draws import boxed, directions
 from recontrol.campaign.linear import abscissa, integral_square, settling_and_peak
 from recontrol.exact.rational import to_float
 
@@ -25,17 +26,8 @@ INERTIA_HALF_UNIT = fmpq(1, 2)  # kg m^2; the moments are printed as integers
 def starts(rng: Any, count: int, data: Any) -> np.ndarray:
     """Initial states (count, 6): each of angles and rates [rad, rad/s] turned at random, its length kept."""
     printed = data.float("x0")[0]
-    directions = rng.standard_normal((count, 2, 3))
-    directions /= np.linalg.norm(directions, axis=2, keepdims=True)
     lengths = np.linalg.norm(printed.reshape(2, 3), axis=1)
-    return (directions * lengths[:, None]).reshape(count, 6)
-
-
-def boxed_gain(rng: Any, count: int, data: Any, gain: str) -> np.ndarray:
-    """Members (count, 3, 6) of the rounding box of a published gain."""
-    centre = data.float(plant.GAINS[gain])
-    half = to_float(plant.half_unit(data, gain)) * (centre != 0)
-    return centre + half * rng.uniform(-1, 1, (count, 3, 6))
+    return (directions(rng, (count, 2, 3)) * lengths[:, None]).reshape(count, 6)
 
 
 def outcomes(A: np.ndarray, x0: np.ndarray, gain: str) -> dict[str, np.ndarray]:
@@ -55,7 +47,7 @@ def changed_gain(rng: Any, count: int, data: Any, gain: str) -> dict[str, np.nda
     """Loops whose gain is off by F M N, F constant."""
     found = plant.float_plant(data)
     factor = rng.uniform(-1, 1, (count, 1, 1))
-    K = boxed_gain(rng, count, data, gain) + factor * (data.float("M") @ data.float("N"))
+    K = boxed(rng, count, data, plant.GAINS[gain], zeros_exact=True) + factor * (data.float("M") @ data.float("N"))
     return outcomes(found["A"] + found["B1"] @ K, starts(rng, count, data), gain)
 
 
@@ -80,5 +72,6 @@ def inertia_ext(rng: Any, count: int, data: Any) -> dict[str, np.ndarray]:
             low[:, i, j] = entry
     A = np.zeros((count, 6, 6))
     A[:, :3, 3:] = np.eye(3)
-    A[:, 3:] = (low + boxed_gain(rng, count, data, "ext")) / inertia[:, :, None]
+    K = boxed(rng, count, data, plant.GAINS["ext"], zeros_exact=True)
+    A[:, 3:] = (low + K) / inertia[:, :, None]
     return outcomes(A, starts(rng, count, data), "ext")

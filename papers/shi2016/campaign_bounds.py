@@ -13,7 +13,7 @@ from flint import fmpq
 
 from recontrol.campaign.modes import Modes, growth_bound, modes
 from recontrol.campaign.proven import Bound, bounded, unproven
-from recontrol.campaign.tube import Tube, tube
+from recontrol.campaign.tube import COMPARED, outcome_bounds
 from recontrol.exact.ball import ball
 from recontrol.exact.rational import from_float, identity, zeros
 
@@ -22,8 +22,6 @@ from .campaign import BAND, INERTIA_HALF_UNIT
 
 PIECES = {"ext": 16, "trad": 256}
 GRID = 0.02  # s
-TUBE = "comparison of the loop with the middle of its box, mode by mode"
-TOO_WIDE = "the box is too wide for the comparison with its middle"
 
 
 def starts(data: Any) -> tuple[list[Any], float]:
@@ -59,18 +57,8 @@ def of_inertia(data: Any) -> Modes:
 def along(pieces: list[Modes], data: Any) -> dict[str, Bound]:
     """Settling, peak, energy and abscissa over all pieces."""
     blocks, least = starts(data)
-    tunnels: list[Tube] = []
-    for found in pieces:
-        tunnel = tube(found, identity(6)[:3], blocks, step=GRID, until=BAND * least)
-        if tunnel is None:
-            return dict.fromkeys(("settling", "peak", "energy", "abscissa"), unproven(TOO_WIDE))
-        tunnels.append(tunnel)
-    return {
-        "settling": bounded(max(t.settled(BAND * least) for t in tunnels), f"{TUBE}; the start itself is a peak"),
-        "peak": bounded(max(t.peak for t in tunnels), TUBE),
-        "energy": bounded(max(t.energy for t in tunnels), TUBE),
-        "abscissa": bounded(max(t.rate for t in tunnels), TUBE),
-    }
+    why, level = "the start itself is a peak", BAND * least
+    return outcome_bounds(pieces, identity(6)[:3], blocks, step=GRID, level=level, peaks=why, integral="energy")
 
 
 def gain_ext(data: Any) -> dict[str, Bound]:
@@ -82,7 +70,7 @@ def gain_trad(data: Any) -> dict[str, Bound]:
     """The traditional gain, changed: some members are unstable."""
     never = unproven("some changes of the printed size make the loop unstable, and its outcomes grow without limit")
     return dict.fromkeys(("settling", "peak", "energy"), never) | {
-        "abscissa": bounded(max(growth_bound(found) for found in changed(data, "trad")), TUBE)
+        "abscissa": bounded(max(growth_bound(found) for found in changed(data, "trad")), COMPARED)
     }
 
 

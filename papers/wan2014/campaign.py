@@ -9,6 +9,8 @@ from typing import Any
 
 import numpy as np
 
+from recontrol.campaign.draws import directions
+
 from .loop import Batch, simulate
 from .simulation.metrics import estimates, last_above, make_batch, target_orbit
 from .simulation.sweeps import VELOCITY_BALL
@@ -26,9 +28,7 @@ def drawn(rng: Any, count: int, data: Any, model: Any) -> Batch:
     """Uniform: true anomaly, eccentricity up to twice the printed one, velocity error in a ball of 5 m/s."""
     anomaly = rng.uniform(0, 2 * np.pi, count)
     eccentricity = data.float("e") * ECCENTRICITY * rng.uniform(0, 1, count)
-    direction = rng.standard_normal((count, 3))
-    direction /= np.linalg.norm(direction, axis=1, keepdims=True)
-    error = direction * VELOCITY_BALL * rng.uniform(0, 1, (count, 1)) ** (1 / 3)
+    error = directions(rng, (count, 3)) * VELOCITY_BALL * rng.uniform(0, 1, (count, 1)) ** (1 / 3)
     exact = estimates(data)["xhat0_x0"]
     runs = [
         {

@@ -10,7 +10,7 @@ from scipy.linalg import expm, solve_continuous_lyapunov
 from recontrol.campaign.least import least_peak
 from recontrol.campaign.linear import trajectories
 from recontrol.campaign.modes import growth_bound, modes
-from recontrol.campaign.tube import tube
+from recontrol.campaign.tube import NO_PEAK, TOO_WIDE, outcome_bounds, tube
 from recontrol.exact.ball import box
 from recontrol.exact.rational import identity, matrix
 
@@ -125,3 +125,29 @@ def test_an_invisible_start_has_no_least_peak():
     # The third state of this loop is never seen in the first.
     loop = matrix("-1 1 0\n-1 -1 0\n0 0 -3")
     assert least_peak(modes(loop), matrix("1 0 0"), identity(3), [0.1 * k for k in range(50)]) == 0.0
+
+
+def outcomes(pieces, level):
+    given = {"step": 0.01, "level": level, "peaks": "chosen", "integral": "ise"}
+    return outcome_bounds([modes(boxed(half)) for half in pieces], ROW, [identity(3)], **given)
+
+
+def test_the_worst_piece_decides():
+    narrow, wide, both = (outcomes(pieces, 0.05) for pieces in (["1/100"], ["1/50"], ["1/50", "1/100"]))
+    for name in ("settling", "peak", "ise", "abscissa"):
+        assert both[name] == wide[name]
+        assert wide[name].value > narrow[name].value
+    assert both["settling"].by.endswith("; chosen")
+
+
+def test_nothing_settles_below_an_unknown_level():
+    found = outcomes(["1/100"], 0.0)
+    assert found["settling"].value is None
+    assert found["settling"].by.endswith(NO_PEAK)
+    assert found["peak"].value > 0
+
+
+def test_one_piece_too_wide_leaves_nothing_proven():
+    found = outcomes(["1/100", "3/1"], 0.05)
+    assert set(found) == {"settling", "peak", "ise", "abscissa"}
+    assert all(bound.value is None and bound.by.endswith(TOO_WIDE) for bound in found.values())

@@ -7,6 +7,7 @@ import pytest
 
 from papers.hashim2015 import campaign, campaign_bounds
 from recontrol import paper
+from recontrol.campaign.draws import directions
 from recontrol.pipeline.campaign import generator
 from tests.conftest import ROOT
 from tests.papers.hashim2015_artifacts import DATA, MODEL, SYNTHESIS, call
@@ -52,7 +53,7 @@ def test_directions_that_show_least_settle_within_the_bound():
     A, B, C = (DATA.float(name) for name in ("A_yaw", "B_yaw", "C_yaw"))
     K = A[:1] - DATA.float("A_c")[:1]
     loop = campaign.assembled([[(A - B @ K)[None], B @ K], [np.zeros((4, 4)), A - DATA.float("L") @ C]])
-    grid = campaign.starts(np.random.default_rng(3), 4000, 4)
+    grid = directions(np.random.default_rng(3), (4000, 4))
     x0 = np.hstack([grid, grid])
     row = np.append(C[0], np.zeros(4))
     found = campaign.outcomes(np.repeat(loop, 4000, axis=0), x0, row)

@@ -9,6 +9,7 @@ the middle of the box is enclosed on a grid, between its instants by the second 
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -17,6 +18,7 @@ from flint import acb, acb_mat, arb, arb_mat
 
 from recontrol.campaign.forms import diagonal, largest_eigenvalue, row_norm
 from recontrol.campaign.modes import BITS, Modes, growth_bound, supersolution, upper
+from recontrol.campaign.proven import Bound, bounded, unproven
 from recontrol.exact.ball import precision
 
 Array = Any
@@ -26,6 +28,11 @@ LONGEST = 40000
 """Steps of a grid at most."""
 SMOOTH = 1e-5
 """The step is doubled where the output bends less than this part of its size between two instants."""
+RESTING = 1e-3
+"""Level that ends a tube where no level of settling is known."""
+COMPARED = "comparison of the box with its middle, mode by mode"
+TOO_WIDE = "the box is too wide for the comparison with its middle"
+NO_PEAK = "it is measured against a trajectory's own peak, of which no positive lower bound is proven"
 
 
 @dataclass(frozen=True)
@@ -86,6 +93,27 @@ def tube(found: Modes, rows: Array, starts: list[Array], *, step: float, until: 
             return None
         walk = _Walk(found, found.seen(rows), entered, sizes, shape, step)
         return walk.go(until, rate)
+
+
+def outcome_bounds(
+    pieces: Sequence[Modes], rows: Array, starts: list[Array], *, step: float, level: float, peaks: str, integral: str
+) -> dict[str, Bound]:
+    """Bounds of `settling` [s], `peak`, `abscissa` [1/s] and ``integral`` (of ``abs(rows x)^2``) over pieces of a box.
+
+    rows, starts, step: as for `tube`. level: a part of the least peak of any trajectory, below which each has settled,
+    0 if none is proven; peaks: why every trajectory peaks so high. integral: the name of that outcome.
+    """
+    walked = [tube(found, rows, starts, step=step, until=level if level > 0 else RESTING) for found in pieces]
+    tubes = [found for found in walked if found is not None]
+    if len(tubes) < len(walked):
+        return dict.fromkeys(("settling", "peak", integral, "abscissa"), unproven(TOO_WIDE))
+    settling = bounded(max(found.settled(level) for found in tubes), f"{COMPARED}; {peaks}")
+    return {
+        "settling": settling if level > 0 else unproven(NO_PEAK),
+        "peak": bounded(max(found.peak for found in tubes), COMPARED),
+        integral: bounded(max(found.energy for found in tubes), COMPARED),
+        "abscissa": bounded(max(found.rate for found in tubes), COMPARED),
+    }
 
 
 class _Walk:
