@@ -184,8 +184,8 @@ class Data:
     `data[name]` is exact: fmpq for a single number, else an object array (rows, columns) of fmpq.
     """
 
-    def __init__(self, printed: dict[str, Printed], units: dict[str, str], path: Path):
-        self._printed, self._units, self._path = printed, units, path
+    def __init__(self, printed: dict[str, Printed], entries: dict[str, Datum], path: Path):
+        self._printed, self._entries, self._path = printed, entries, path
 
     def printed(self, name: str) -> Printed:
         """The Printed object. Raises UnknownNameError."""
@@ -245,8 +245,12 @@ class Data:
 
     def unit(self, name: str) -> str:
         """The unit as paper.yaml gives it; a variant has that of its datum. Raises UnknownNameError."""
+        return self.entry(name).unit
+
+    def entry(self, name: str) -> Datum:
+        """The entry of paper.yaml: a variant has that of its datum. Raises UnknownNameError."""
         self.printed(name)
-        return self._units[name]
+        return self._entries[name]
 
 
 class Paper:
@@ -266,11 +270,11 @@ class Paper:
         from recontrol.claims.printed import Printed
 
         printed = {name: Printed.parse(d.printed, exact=d.exact) for name, d in self.file.data.items()}
-        units = {name: d.unit for name, d in self.file.data.items()}
+        entries = dict(self.file.data)
         for name, variant in self.file.variants.items():
             printed[name] = printed[variant.of].patched(variant.patch)
-            units[name] = units[variant.of]
-        return Data(printed, units, self.folder / "paper.yaml")
+            entries[name] = entries[variant.of]
+        return Data(printed, entries, self.folder / "paper.yaml")
 
     def parts(self, stage: str) -> list[str]:
         """Names of the parts of a stage, in the order of paper.yaml."""

@@ -9,7 +9,10 @@ from scipy.linalg import solve_continuous_are
 
 from papers.hashim2015 import analysis, certificates, identities, intervals, loops, recipe
 from papers.hashim2015.quantities.loops import enclosures, sign_overlap
-from papers.hashim2015.readings import formulas, misprints, sentences
+from papers.hashim2015.readings import formulas, misprints, sentences, words
+from papers.hashim2015.readings import gains as design
+from papers.hashim2015.simulation import designs
+from papers.hashim2015.simulation.sweep import sweep
 from papers.hashim2015.synthesis.identifiability import row_of_52
 from papers.hashim2015.synthesis.lqr import EnclosureError, lower_end, moment, upper_end
 from recontrol.claims.identity import equal
@@ -192,3 +195,46 @@ def test_certificates_of_the_print_verify_and_rebuild(name):
     assert "rebuilt from papers/hashim2015" in found.why
     tampered = {**certificate, "says": "something else"}
     assert not verify.check(tampered).holds
+
+
+class Altered:
+    """The paper's data with some values replaced."""
+
+    def __init__(self, **values):
+        self.values = values
+
+    def __getitem__(self, name):
+        return self.values[name] if name in self.values else DATA[name]
+
+    def __getattr__(self, name):
+        return getattr(DATA, name)
+
+
+@pytest.mark.parametrize(
+    ("reading", "cited", "right"),
+    [
+        (words.s1_cite14, "source_cited", fmpq(15)),
+        (words.eq16_ref, "plant_cited", fmpq(4)),
+        (words.s3_subst, "blocks_cited", np.array([[fmpq(58), fmpq(65)]], dtype=object)),
+    ],
+)
+def test_a_citation_is_wrong_as_printed_and_right_with_the_number_that_is_meant(reading, cited, right):
+    printed, corrected = reading(Altered()).value, reading(Altered(**{cited: right})).value
+    assert not equal(printed.left, printed.right)
+    assert equal(corrected.left, corrected.right)
+
+
+def test_titles_beside_a_citation_are_those_of_the_reference_list():
+    evidence = words.s1_cite14(DATA).evidence
+    assert "Panels" in evidence["title of [14]"]
+    assert "Space Satellite" in evidence["title of [15]"]
+
+
+def test_the_printed_input_weight_scales_the_weights_of_the_states():
+    one, two = (design.s22_bryson(MODEL, Altered(weight_R=R)).value.margins for R in (fmpq(1), fmpq(2)))
+    assert all(two[name].contains(2 * one[name].mid()) for name in one)
+
+
+def test_sweep_spans_the_printed_weights():
+    _, series = sweep({axis: MODEL[axis] for axis in designs.AXES}, DATA)
+    assert (series["q"][0], series["q"][-1]) == pytest.approx((DATA.float("weight_low"), DATA.float("weight_high")))

@@ -15,8 +15,8 @@ from recontrol.exact.spectrum import companion, eigenvalues, is_stable, spectral
 from .. import analysis, recipe
 from ..identities import ace_null_vector_holds, pitch_error_pole_is_zero
 from ..intervals import kharitonov_fraction
-from ..loops import first_state, printed_reduced, reduced_loop
-from ..model import AXES
+from ..loops import printed_reduced, reduced_loop
+from ..model import AXES, complete_column
 from ..readings.formulas import krylov
 from ..readings.gains import inverse_lqr, speed_ratios
 from ..readings.reduced import estimator_gain_sets, gain_box, intersect
@@ -137,9 +137,9 @@ def separation_distance(model: Any, data: Any, synthesis: Any) -> dict[str, floa
 
 
 def ace_rank(data: Any, case: str) -> int:
-    """Rank of the controllability matrix of (55) with its input, the first unit column."""
-    A = data["A_ce" if case == "ace-print" else "A_ce_one"]
-    return rank(krylov(A, first_state(A.shape[0]).T))
+    """Rank of the controllability matrix of (55) with (56), completed by the missing zero."""
+    A, B = data["A_ce" if case == "ace-print" else "A_ce_one"], data["B_ce"]
+    return rank(krylov(A, complete_column(B, A.shape[0])))
 
 
 def quantities(data: Any, model: Any, synthesis: Any) -> dict[str, Any]:

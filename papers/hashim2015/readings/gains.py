@@ -90,13 +90,13 @@ def inverse_lqr(plant: Plant, K: np.ndarray) -> np.ndarray:
 
 
 def s22_bryson(model: Any, data: Any) -> Result:
-    """Diagonal of Q over the whole box of (52): one entry is negative throughout."""
+    """Diagonal of Q for the printed R over the whole box of (52): one entry is negative throughout."""
     plant = plant_of(model, "yaw")
     with precision(PRECISION):
         K_box = printed_gain_box(data)
-    diagonal = inverse_lqr(plant, K_box)
+    diagonal = inverse_lqr(plant, K_box) * data["weight_R"]
     evidence = {
-        "diagonal of Q at the decimals of (52)": inverse_lqr(plant, printed_gain(data)),
+        "diagonal of Q at the decimals of (52)": inverse_lqr(plant, printed_gain(data)) * data["weight_R"],
         "spectral polynomial of C'C": np.array((plant.b * reflect(plant.b)).coeffs(), dtype=object),
         **used("(52) does not come from (18), (19)", r"no diagonal $Q \ge 0$ with $R = 1$ gives (52)"),
     }

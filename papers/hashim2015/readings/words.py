@@ -1,44 +1,42 @@
-"""References and names that the text gives to equations, blocks and sources."""
+"""References and names that the text gives to equations, blocks and sources.
+
+What a citation means is a reading of the text: paper.yaml holds both sides with their places.
+"""
 
 from __future__ import annotations
 
 from typing import Any
 
+import numpy as np
 from flint import fmpq
 
+from recontrol.claims.identity import equal
 from recontrol.claims.values import Identity, Result
 
-from ..recipe import plant_of
+from .formulas import eq16
 from .support import UNUSED, used
 
-REFERENCES = {
-    14: "Active Vibration Control of Satellite Panels using Piezoelectric Actuators and Sensors",
-    15: "Design of Attitude Control System of a Space Satellite",
-}
-CITED = 14
-PARTITION_PLACES = {"A11": 58, "A12": 59, "A21": 60, "A22": 61, "B1": 62, "B2": 63, "K1": 64, "K2": 65}
-NAMED_RANGE = (28, 45)
+BLOCKS = ("A11", "A12", "A21", "A22", "B1", "B2", "K1", "K2")
+"""The data that (46) to (49) take."""
 
 
-def eq16_ref(model: Any) -> Result:
-    """Scalar equations in (1) against those in (16): the state equation has n of them and is (4)."""
-    plant = plant_of(model, "yaw")
-    transfer_functions = fmpq(plant.C.shape[0] * plant.B.shape[1])
-    evidence = used(UNUSED, "the system of (4)")
-    return Result(Identity(transfer_functions, fmpq(plant.n)), evidence=evidence)
+def eq16_ref(data: Any) -> Result:
+    """Number of the equation into which (15) is said to be put, against that of the one which gives (16) with it."""
+    derived = eq16()
+    evidence = {"(15) in (4) gives (16)": equal(derived.left, derived.right), **used(UNUSED, "the system of (4)")}
+    return Result(Identity(data["plant_cited"], data["plant_meant"]), evidence=evidence)
 
 
 def s3_subst(data: Any) -> Result:
-    """First and last place of the numbers that (46)-(49) take, against the range that the text names."""
-    places = [place for name, place in PARTITION_PLACES.items() if name in data]
-    right = (fmpq(min(places)), fmpq(max(places)))
-    left = (fmpq(NAMED_RANGE[0]), fmpq(NAMED_RANGE[1]))
-    return Result(Identity(left, right), evidence=used("the right version", "(58) to (65) into (46) to (49)"))
+    """First and last number of the equations said to be put into (46) to (49), against the places of their data."""
+    places = [int(data.entry(name).where.strip("()")) for name in BLOCKS]
+    found = np.array([[fmpq(min(places)), fmpq(max(places))]], dtype=object)
+    evidence = used("the right version", "(58) to (65) into (46) to (49)")
+    return Result(Identity(data["blocks_cited"], found), evidence=evidence)
 
 
-def s1_cite14() -> Result:
+def s1_cite14(data: Any) -> Result:
     """The source cited for a full-order estimator in a space satellite, against the one whose title says so."""
-    subject = "Space Satellite"
-    right = [number for number, title in REFERENCES.items() if subject in title]
-    evidence = {"title of [14]": REFERENCES[14], "title of [15]": REFERENCES[15], **used(UNUSED, "[15]")}
-    return Result(Identity((fmpq(CITED),), tuple(fmpq(k) for k in right)), evidence=evidence)
+    cited, meant = data["source_cited"], data["source_meant"]
+    evidence = {f"title of [{data[name]}]": data.entry(name).what for name in ("source_cited", "source_meant")}
+    return Result(Identity(cited, meant), evidence={**evidence, **used(UNUSED, f"[{meant}]")})
