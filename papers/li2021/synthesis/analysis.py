@@ -28,7 +28,7 @@ def analysis(data: Any, model: Any) -> dict[str, Any]:
     """Artifact: ``loops`` by controller, ``open`` loop, ``ref39-structured`` coordinates, ``structure``."""
     p = floats(plant(data))
     return {
-        "loops": {name: _loop(data, model, p, name) for name in PRINTED},
+        "loops": {name: _loop(data, p, name) for name in PRINTED},
         "open": {
             "rigid": np.linalg.eigvals(p["A"]),
             "flexible": np.linalg.eigvals(np.asarray(model["flexible"]["A"])),
@@ -56,7 +56,7 @@ def slow_mode(poles: Array) -> complex:
     return complex(fast[np.argmax(fast.real)])
 
 
-def _loop(data: Any, model: Any, p: dict[str, Array], name: str) -> dict[str, Any]:
+def _loop(data: Any, p: dict[str, Array], name: str) -> dict[str, Any]:
     """Everything about one printed controller."""
     c = float_controller(controller(data, name))
     a = data.float("disk_a")
