@@ -82,8 +82,8 @@ def modes(simulation: Any, synthesis: Any) -> Result:
     )
 
 
-def smaller_region(simulation: Any) -> Result:
-    """Figs 8, 9: seeds of ten where the proposed gains end closer, by amplitude and hold time."""
+def smaller_region(simulation: Any, config: Any) -> Result:
+    """Figs 8, 9: seeds where the proposed gains end closer, by amplitude and hold time."""
     table = simulation["draws"]["values"]
     rows = {
         case: {
@@ -92,20 +92,22 @@ def smaller_region(simulation: Any) -> Result:
         }
         for case, cell in table.items()
     }
-    share = sum(cell["proposed-smaller"] for cell in table.values()) / (10 * len(table))
+    seeds = int(config.get("li2021", {}).get("seeds", 10))
+    share = sum(cell["proposed-smaller"] for cell in table.values()) / (seeds * len(table))
     return Result(Approx(share, 1e-12), evidence={"amplitude/hold time [s]": rows})
 
 
-def robustness(synthesis: Any, simulation: Any) -> Result:
+def robustness(data: Any, synthesis: Any, simulation: Any) -> Result:
     """Within 5 %: vertices against the disk, drift limits of disk and stability; gain and bias go the other way."""
+    b = data.float("disk_b")
     v = {name: synthesis["vertices"][name] for name in ("proposed", "ref39")}
     bias = {
         name: Approx(np.abs(np.asarray(o)).max(), 1e-9)
         for name, o in simulation["attitude"]["values"]["offset"].items()
     }
     margins = {
-        "disk radius left at the worst vertex": Approx(1.0 - v["proposed"]["radius"], 1e-9),
-        "[39]: worst vertex beyond the disk": Approx(v["ref39"]["radius"] - 1.0, 1e-9),
+        "disk radius left at the worst vertex": Approx(b - v["proposed"]["radius"], 1e-9),
+        "[39]: worst vertex beyond the disk": Approx(v["ref39"]["radius"] - b, 1e-9),
         "drift limit of the disk": Approx(v["proposed"]["limits"]["disk"][0] - v["ref39"]["limits"]["disk"][1], 1e-4),
         "drift limit of stability": Approx(
             v["proposed"]["limits"]["stability"][0] - v["ref39"]["limits"]["stability"][1], 1e-4
