@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable, Mapping
+from itertools import product
 from typing import Any
 
 import numpy as np
@@ -13,7 +15,10 @@ from recontrol.exact.rational import identity, zeros
 from recontrol.spacecraft.flexible import linear_model, orbital_matrices
 from recontrol.systems.generic import diag, inverse
 
-from ..plant import DELTA_D, DELTA_G, factors, inertia_envelope, plant
+from ..plant import DELTA_D, DELTA_G, controller, factors, inertia_envelope, plant
+from .support import lacking
+
+Array = np.ndarray
 
 
 def n_from_day(data: Any) -> arb:
@@ -34,8 +39,8 @@ def period(data: Any) -> arb:
         return 2 * arb.pi() / n_from_radius(data) / 3600
 
 
-def _rotations() -> tuple[Any, Any]:
-    """R1(phi) R2(theta) R3(psi) in sympy, and the angles."""
+def _sequence() -> tuple[tuple[Any, Any, Any], Any]:
+    """R1(phi), R2(theta), R3(psi) in sympy, and the angles."""
     import sympy as sp
 
     phi, theta, psi = sp.symbols("phi theta psi", real=True)
@@ -43,7 +48,28 @@ def _rotations() -> tuple[Any, Any]:
     R1 = sp.Matrix([[1, 0, 0], [0, c(phi), s(phi)], [0, -s(phi), c(phi)]])
     R2 = sp.Matrix([[c(theta), 0, -s(theta)], [0, 1, 0], [s(theta), 0, c(theta)]])
     R3 = sp.Matrix([[c(psi), s(psi), 0], [-s(psi), c(psi), 0], [0, 0, 1]])
-    return R1 * R2 * R3, (phi, theta, psi)
+    return (R1, R2, R3), (phi, theta, psi)
+
+
+def _rotations() -> tuple[Any, Any]:
+    """R1(phi) R2(theta) R3(psi) in sympy, and the angles."""
+    (R1, R2, R3), angles = _sequence()
+    return R1 * R2 * R3, angles
+
+
+def _printed_column() -> Any:
+    """Vector behind n in (4): the second column of the direction cosines, as printed there."""
+    import sympy as sp
+
+    phi, theta, psi = sp.symbols("phi theta psi", real=True)
+    s, c = sp.sin, sp.cos
+    return sp.Matrix(
+        [
+            c(theta) * s(psi),
+            s(phi) * s(theta) * s(psi) + c(phi) * c(psi),
+            c(phi) * s(theta) * s(psi) - s(phi) * c(psi),
+        ]
+    )
 
 
 def _printed_entry(last: str) -> Any:
@@ -63,10 +89,7 @@ def eq2_rotations() -> Identity:
 
 def eq2_vector() -> Identity:
     """(2) against the vector in (4), whose last entry is the same direction cosine."""
-    import sympy as sp
-
-    phi, theta, psi = sp.symbols("phi theta psi", real=True)
-    return Identity(_printed_entry("cos"), sp.cos(phi) * sp.sin(theta) * sp.sin(psi) - sp.sin(phi) * sp.cos(psi))
+    return Identity(_printed_entry("cos"), _printed_column()[2])
 
 
 def eq2_sine() -> Identity:
@@ -87,21 +110,17 @@ def _rates() -> tuple[Any, Any, Any]:
 
 
 def eq4_w() -> Identity:
-    """(4) against the rates of (3) minus n times the second column of the direction cosines."""
+    """(4) and its T(q) of (3), against rates about the axes of the rotation sequence and the orbit's turn seen in it.
+
+    Each rotation adds its rate about its own axis, turned by those that follow: dphi e1 + R1 (dtheta e2 + R2 dpsi e3).
+    """
     import sympy as sp
 
-    relative, _, n = _rates()
-    phi, theta, psi = sp.symbols("phi theta psi", real=True)
-    s, c = sp.sin, sp.cos
-    printed = sp.Matrix(
-        [
-            c(theta) * s(psi),
-            s(phi) * s(theta) * s(psi) + c(phi) * c(psi),
-            c(phi) * s(theta) * s(psi) - s(phi) * c(psi),
-        ]
-    )
-    R, _ = _rotations()
-    return Identity(relative - n * printed, relative - n * R[:, 1])
+    (R1, R2, R3), _ = _sequence()
+    relative, rates, n = _rates()
+    e1, e2, e3 = (sp.eye(3)[:, k] for k in range(3))
+    due = rates[0] * e1 + R1 * (rates[1] * e2 + R2 * (rates[2] * e3))
+    return Identity(relative - n * _printed_column(), due - n * (R1 * R2 * R3 * e2))
 
 
 def eq5() -> Identity:
@@ -134,51 +153,57 @@ def eq6() -> Identity:
     return Identity([rate_matrix, stiffness, transport], [sp.Matrix(D), sp.Matrix(G), sp.Matrix(N)])
 
 
-def g0_printed() -> Identity:
-    """n^2 J20 - J10, as the text after (6) has it, against entry (3,3) of G in (6)."""
-    import sympy as sp
+def _g0(printed: Callable[[Any, Any, Any], Any]) -> Identity:
+    """A form of entry (3,3) in n, J1, J2, against G of (6) and against the Jacobian of the nonlinear model."""
+    from recontrol.spacecraft.attitude import linearised_attitude, lvlh_symbols
 
-    n, J1, J2 = sp.symbols("n J10 J20", positive=True)
-    return Identity(n**2 * J2 - J1, n**2 * (J2 - J1))
+    s = lvlh_symbols()
+    J, n = s["inertia"], s["orbital_rate"]
+    _, G, _ = orbital_matrices(np.array(J, dtype=object), n)
+    _, _, stiffness = linearised_attitude()
+    form = printed(n, J[0], J[1])
+    return Identity([form, form], [G[2, 2], stiffness[2, 2]])
+
+
+def g0_printed() -> Identity:
+    """n^2 J20 - J10, as the text after (6) has it."""
+    return _g0(lambda n, J1, J2: n**2 * J2 - J1)
 
 
 def g0_parenthesis() -> Identity:
     """With a parenthesis around the difference of the inertias."""
-    import sympy as sp
-
-    n, J1, J2 = sp.symbols("n J10 J20", positive=True)
-    return Identity(n**2 * (J2 - J1), sp.expand(n**2 * J2 - n**2 * J1))
+    return _g0(lambda n, J1, J2: n**2 * (J2 - J1))
 
 
-def _corners() -> list[tuple[int, int, int]]:
-    return [(i, j, k) for i in (-1, 1) for j in (-1, 1) for k in (-1, 1)]
+def _corners() -> list[Array]:
+    """The vertices of |delta_i| <= 1, each (3,)."""
+    return [np.array([fmpq(v) for v in corner], dtype=object) for corner in product((-1, 1), repeat=3)]
 
 
-def sec2_factors(data: Any) -> Identity:
-    """Delta J, Delta D, Delta G from their factors, and Delta A = L Delta H K, exactly at the eight vertices."""
+def sec2_factors(data: Any) -> Result:
+    """Delta J, Delta D, Delta G from their factors, Delta A = L Delta_H K, and both norm bounds, at the eight vertices.
+
+    The factors are multilinear in delta; Delta_H'Delta_H and e'e are convex in it: the vertices stand for the box. A
+    bound counts by what its matrix, I - Delta_H'Delta_H or W0'W0 - (Delta J)^2 in q'', lacks to be >= 0: nothing.
+    """
     p, f, left, right = plant(data), factors(data), [], []
-    J0, n = np.ravel(data["J0"]), data["orbital_rate"]
-    Mi = inverse(p["M0"])
-    for corner in _corners():
-        d = np.array([fmpq(v) for v in corner], dtype=object)
-        J = J0 + d * inertia_envelope(data)
-        D, G, _ = orbital_matrices(J, n)
-        left += [f["Xi_J"] @ diag(d), f["Xi_D"] @ diag(d[list(DELTA_D)]) @ f["Gamma_D"]]
-        left += [f["Xi_G"] @ diag(d[list(DELTA_G)]) @ f["Gamma_G"]]
-        right += [diag(J) - diag(J0), D - p["D"], G - p["G"]]
-        H = diag(np.concatenate([d[list(DELTA_G)], d[list(DELTA_D)]]))
+    Mi, attained = inverse(p["M0"]), 0
+    for d in _corners():
+        J = np.ravel(data["J0"]) + d * inertia_envelope(data)
+        D, G, _ = orbital_matrices(J, data["orbital_rate"])
+        dJ, dD, dG = diag(J) - diag(data["J0"]), D - p["D"], G - p["G"]
+        H_G, H_D = d[list(DELTA_G)], d[list(DELTA_D)]
+        H = diag(np.concatenate([H_G, H_D]))
+        left += [f["Xi_J"] @ diag(d), f["Xi_D"] @ diag(H_D) @ f["Gamma_D"], f["Xi_G"] @ diag(H_G) @ f["Gamma_G"]]
+        right += [dJ, dD, dG]
         left.append(p["L"] @ H @ p["K"])
-        right.append(np.vstack([zeros(3, 6), np.hstack([-Mi @ (G - p["G"]), -Mi @ (D - p["D"])])]))
-    return Identity(left, right)
-
-
-def sec2_bounds(data: Any) -> Result:
-    """Delta_H' Delta_H <= I and |e| <= |W0 x'|: both are sums of squares with weights 1 - delta_i^2 >= 0."""
-    margins = {}
-    for corner in _corners():
-        gap = [(1 - fmpq(v) ** 2) * s**2 for v, s in zip(corner, inertia_envelope(data), strict=True)]
-        margins |= {f"{corner}, axis {k + 1}": value for k, value in enumerate(gap)}
-    return Result(Statement(margins, strict=False), evidence={"vertices": len(_corners())})
+        right.append(np.vstack([zeros(3, 6), np.hstack([-Mi @ dG, -Mi @ dD])]))
+        e = np.hstack([zeros(3, 3), dJ])
+        room = p["W"].T @ p["W"] - e.T @ e
+        left += [lacking(identity(len(H)) - H.T @ H), lacking(room)]
+        right += [fmpq(0), fmpq(0)]
+        attained += bool((room == 0).all())
+    return Result(Identity(left, right), evidence={"vertices where the norm of e reaches its bound": attained})
 
 
 def _eliminated(data: Any) -> tuple[np.ndarray, np.ndarray, dict[str, np.ndarray]]:
@@ -210,21 +235,54 @@ def eq7_d_tilde(data: Any) -> Identity:
     return Identity(A[:, [3, 4, 5, 6, 10, 11, 12, 13]], due)
 
 
-def _stiffness_term(symbol: str) -> Any:
-    import sympy as sp
+def _deltas(data: Any) -> dict[str, Array]:
+    """Every matrix that sections II and III write with a Delta, at delta_i = 1 and the full drift of the gains."""
+    p, gains, drift = plant(data), controller(data, "proposed"), data["drift_bound"]
+    J = np.ravel(data["J0"]) + inertia_envelope(data)
+    D, G, _ = orbital_matrices(J, data["orbital_rate"])
+    return {
+        "Delta_J": identity(len(J)),
+        "Delta_D": identity(len(DELTA_D)),
+        "Delta_G": identity(len(DELTA_G)),
+        "Delta H": identity(len(DELTA_G) + len(DELTA_D)),
+        "Delta J": diag(J) - diag(data["J0"]),
+        "Delta D": D - p["D"],
+        "Delta G": G - p["G"],
+        "Delta A": p["L"] @ p["K"],
+        "Delta A_f": gains.A * drift,
+        "Delta B_f": gains.B * drift,
+        "Delta C_f": gains.C * drift,
+    }
 
-    return (
-        sp.Symbol("F'", commutative=False) * sp.Symbol(symbol, commutative=False) * sp.Symbol("eta", commutative=False)
-    )
+
+def _left_by_elimination(data: Any) -> Array:
+    """What F'X has to be (3, modes) for the stiffness term F'X eta of d~: M0 times the part of q'' in eta."""
+    A, _, p = _eliminated(data)
+    return p["M0"] @ A[:, 3 : 3 + len(data["F"])]
 
 
-def eq7_delta(data: Any) -> Identity:
-    """Stiffness term of d~ with a Delta, against that with the stiffness matrix of (1)."""
-    return Identity(_stiffness_term("Delta"), _stiffness_term("Lambda"))
+def _stiffness(data: Any, candidates: Mapping[str, Array]) -> Statement:
+    """Whether one of the matrices can stand in F'X eta.
+
+    Margin: minus what the best of them is off, in rows and columns if none has the order of eta, else in entries of F'X.
+    """
+    F, due = data["F"], _left_by_elimination(data)
+    off = {name: sum(abs(size - len(F)) for size in X.shape) for name, X in candidates.items()}
+    fitting = [candidates[name] for name in candidates if off[name] == 0]
+    if not fitting:
+        return Statement({"rows and columns off, at best": fmpq(-min(off.values()))}, strict=False)
+    return Statement({"entries of F'X off, at best": max(-abs(F.T @ X - due).max() for X in fitting)}, strict=False)
+
+
+def eq7_delta(data: Any) -> Result:
+    """The stiffness term of d~ with any Delta of the paper: none is of the order of eta."""
+    deltas = _deltas(data)
+    sizes = {name: " x ".join(map(str, X.shape)) for name, X in deltas.items()}
+    return Result(_stiffness(data, deltas), evidence={"number of modes": len(data["F"]), "sizes": sizes})
 
 
 def eq7_lambda(data: Any) -> Result:
-    """With Lambda: the stiffness term that the elimination leaves, exactly."""
-    A, _, p = _eliminated(data)
-    w, F = np.ravel(data["modal_frequency"]), data["F"]
-    return Result(Identity(A[:, [3, 4, 5, 6]], p["B"][3:] @ F.T @ diag(w * w)), evidence={"order": len(identity(4))})
+    """With the stiffness matrix Lambda of (1): the term that the elimination leaves, exactly."""
+    w, F, due = np.ravel(data["modal_frequency"]), data["F"], _left_by_elimination(data)
+    needed = (F * due.T).sum(axis=1) / (F * F).sum(axis=1)
+    return Result(_stiffness(data, {"Lambda": diag(w * w)}), evidence={"diagonal X that F'X eta needs [1/s^2]": needed})
