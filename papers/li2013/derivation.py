@@ -10,6 +10,7 @@ import numpy as np
 from flint import fmpq
 
 from recontrol.exact import rational
+from recontrol.lmi.blocks import he
 
 
 def quadratic_form(
@@ -24,12 +25,12 @@ def quadratic_form(
     xi, slope, held, mean = E
     gap, left = held - xi, h - tau
     P1, P2, P3 = (point[name] for name in ("P1", "P2", "P3"))
-    grown = _he(slope.T @ P1 @ xi) + 2 * alpha * (xi.T @ P1 @ xi)
+    grown = he(slope.T @ P1 @ xi) + 2 * alpha * (xi.T @ P1 @ xi)
     memory = left * (slope.T @ P2 @ slope) - (decay * tau) * (mean.T @ P2 @ mean)
-    jump = (2 * alpha * left - 1) * (gap.T @ P3 @ gap) - left * _he(slope.T @ P3 @ gap)
+    jump = (2 * alpha * left - 1) * (gap.T @ P3 @ gap) - left * he(slope.T @ P3 @ gap)
     motion = (point["T1"] @ xi + point["T2"] @ slope).T @ (slope - A @ xi - G @ held)
     average = (point["S1"] @ xi + point["S2"] @ slope + point["S3"] @ held).T @ (held - xi + tau * mean)
-    return grown + memory + jump + _he(motion) + _he(average)
+    return grown + memory + jump + he(motion) + he(average)
 
 
 def summands(
@@ -43,10 +44,6 @@ def summands(
     gap = held - xi
     sizes = [(x.T @ point[name] @ x)[0, 0] for name, x in (("P1", xi), ("P2", slope), ("P3", gap))]
     return sizes[0], left * memory * sizes[1], left * sizes[2]
-
-
-def _he(M: np.ndarray) -> np.ndarray:
-    return M + M.T
 
 
 def _selectors(n: int, exact: bool) -> list[np.ndarray]:

@@ -6,9 +6,7 @@ from plant import A, holds
 
 from recontrol.exact import ball, rational
 from recontrol.lmi import loops
-from recontrol.lmi.problem import Problem
-from recontrol.lmi.proof import NotProvenError, prove_feasible
-from recontrol.lmi.variables import symmetric
+from recontrol.lmi.proof import NotProvenError
 
 
 @pytest.mark.parametrize(
@@ -57,14 +55,3 @@ def test_box_lemma_proves_a_box_and_no_more():
     E, F = loops.entry_box(rational.matrix("0 0\n2 1"))
     with pytest.raises(NotProvenError):
         loops.prove_box_stable(A, E, F)
-
-
-def test_box_lemma_of_a_symmetric_matrix():
-    """M0 + he(E D F) over the box is the family [2, d; d, 2] with abs(d) <= 1."""
-    E, F = rational.matrix("1\n0"), rational.matrix("0 1")
-    problem = Problem(
-        "box", {"T": symmetric(1)}, [loops.box_definite], {"M0": 2 * rational.identity(2), "E": E, "F": F}
-    )
-    assert holds(prove_feasible(problem, {"T": rational.matrix("1")}, statement="box"))
-    with pytest.raises(NotProvenError):
-        prove_feasible(problem, {"T": rational.matrix("3")}, statement="box")

@@ -7,6 +7,7 @@ from typing import Any
 import numpy as np
 
 from recontrol.simulate.rk4 import rk4
+from recontrol.simulate.sampled import last_outside
 from recontrol.systems.output_feedback import Controller
 
 from ..plant import controller, float_controller
@@ -83,18 +84,16 @@ def _measures(t: Array, h: dict[str, Array]) -> dict[str, Any]:
         "late_angles": angles[half].max(axis=0),
         "late_rates": np.abs(h["rates"])[half].max(axis=0),
         "peak_rates": np.abs(h["rates"]).max(axis=0),
-        "settling": {f"{band:g}": [_last_exit(t, angle, band) for angle in angles.T] for band in BANDS},
+        "settling": {f"{band:g}": [_settling(t, angle, band) for angle in angles.T] for band in BANDS},
         "peak_modes": modes.max(axis=0),
         "late_modes": modes[late].max(axis=0),
     }
 
 
-def _last_exit(t: Array, size: Array, band: float) -> Any:
+def _settling(t: Array, size: Array, band: float) -> Any:
     """First sample time after the last exit from the band, 0 if there is none, "never" if still outside."""
-    outside = np.flatnonzero(size > band)
-    if outside.size == 0:
-        return 0.0
-    return "never" if outside[-1] == len(t) - 1 else float(t[outside[-1] + 1])
+    found = last_outside(t, size, band)
+    return "never" if found is None else found
 
 
 def _offset(data: Any, name: str) -> Array:

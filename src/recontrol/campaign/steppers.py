@@ -1,12 +1,7 @@
-"""Many trajectories at once: batched matrix exponentials for linear loops.
-
-In: a stack of loop matrices and initial states. Out: outcomes sampled on a shared grid, reduced on the way, so that
-memory is that of one time step.
-"""
+"""Matrix exponentials of many linear loops at once. In: a stack of matrices. Out: the stack of their exponentials."""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
 from typing import Any
 
 import numpy as np
@@ -46,34 +41,3 @@ def batched_expm(matrices: Array) -> Array:
     for _ in range(squarings):
         result = result @ result
     return result
-
-
-def steps(transition: Array, x0: Array, samples: int) -> Iterator[Array]:
-    """States (runs, n) at samples 0, 1, ..., `samples` - 1 of ``x[k+1] = transition x[k]``.
-
-    transition: (runs, n, n), or (n, n) shared by all runs; x0: (runs, n).
-    """
-    x = np.array(x0, dtype=float)
-    shared = transition.ndim == 2
-    for k in range(samples):
-        yield x
-        if k + 1 < samples:
-            x = x @ transition.T if shared else np.einsum("rij,rj->ri", transition, x, optimize=False)
-
-
-def peak(states: Iterator[Array], outcome: Callable[[Array], Array]) -> Array:
-    """Largest value over time of an outcome (runs,) of the states (runs, n)."""
-    largest = outcome(next(states))
-    for x in states:
-        largest = np.maximum(largest, outcome(x))
-    return largest
-
-
-def last_outside(states: Iterator[Array], outcome: Callable[[Array], Array], band: Array, step: float) -> Array:
-    """Time of the last sample at which an outcome (runs,) exceeds its band (runs,); 0 if it never does."""
-    last = None
-    for k, x in enumerate(states):
-        outside = outcome(x) > band
-        last = np.where(outside, k, -1 if last is None else last)
-    assert last is not None
-    return (last + 1) * step

@@ -12,7 +12,7 @@ import numpy as np
 from flint import arb, arb_mat, fmpq
 
 from recontrol.exact.ball import assert_rigorous, has_balls, to_ball
-from recontrol.exact.rational import from_fmpq_mat, identity, to_fmpq_mat, zeros
+from recontrol.exact.rational import from_flint, identity, to_fmpq_mat, zeros
 
 
 class SingularError(ValueError):
@@ -110,19 +110,13 @@ def _arb_mat(A: np.ndarray) -> arb_mat:
     return arb_mat(to_ball(A).tolist())
 
 
-def _from_arb_mat(M: arb_mat) -> np.ndarray:
-    out = np.empty((M.nrows(), M.ncols()), dtype=object)
-    out[...] = M.tolist()
-    return out
-
-
 def solve(A: np.ndarray, B: np.ndarray) -> np.ndarray:
     """X (n, k) with A X = B, exact for rationals, an enclosure for balls. Raises SingularError."""
     _check_square(A, "A")
     try:
         if has_balls(A) or has_balls(B):
-            return _from_arb_mat(_arb_mat(A).solve(_arb_mat(B)))
-        return from_fmpq_mat(to_fmpq_mat(A).solve(to_fmpq_mat(B)))
+            return from_flint(_arb_mat(A).solve(_arb_mat(B)))
+        return from_flint(to_fmpq_mat(A).solve(to_fmpq_mat(B)))
     except ZeroDivisionError as error:
         raise SingularError("the matrix is singular, or its balls do not exclude that") from error
 

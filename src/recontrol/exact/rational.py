@@ -13,7 +13,7 @@ from fractions import Fraction
 from typing import Any, TypeAlias
 
 import numpy as np
-from flint import fmpq, fmpq_mat, fmpz
+from flint import arb_mat, fmpq, fmpq_mat, fmpz
 
 _DECIMAL = re.compile(r"([+-]?)(\d*)(?:\.(\d*))?(?:[eE]([+-]?\d+))?")
 _FRACTION = re.compile(r"([+-]?\d+)/(\d+)")
@@ -161,8 +161,8 @@ def to_fmpq_mat(A: np.ndarray) -> fmpq_mat:
     return fmpq_mat([[rational(x) for x in row] for row in A])
 
 
-def from_fmpq_mat(M: fmpq_mat) -> np.ndarray:
-    """Object matrix of a flint matrix."""
+def from_flint(M: fmpq_mat | arb_mat) -> np.ndarray:
+    """Object matrix of the entries of a flint matrix."""
     out = np.empty((M.nrows(), M.ncols()), dtype=object)
     out[...] = M.tolist()
     return out

@@ -109,7 +109,7 @@ def header(problem: Problem, statement: str, proof: str, says: str, precision: i
         "source": problem.source,
         "variables": {name: encode_variable(v) for name, v in problem.variables.items()},
         "order": list(problem.variables),  # of the unknowns; a file with sorted keys has lost it
-        "boxes": {n: [encode(_matrix(lo)), encode(_matrix(hi))] for n, (lo, hi) in problem.boxes.items()},
+        "boxes": {n: [encode(as_matrix(lo)), encode(as_matrix(hi))] for n, (lo, hi) in problem.boxes.items()},
         "precision": precision,
         "notes": dict(notes),
     }
@@ -130,5 +130,6 @@ def finish(certificate: dict[str, Any]) -> dict[str, Any]:
     return certificate
 
 
-def _matrix(value: Any) -> np.ndarray:
+def as_matrix(value: Any) -> np.ndarray:
+    """A matrix as it is, a number as a matrix (1, 1)."""
     return value if isinstance(value, np.ndarray) else np.array([[rational.rational(value)]], dtype=object)

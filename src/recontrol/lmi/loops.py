@@ -68,18 +68,11 @@ def somewhere_positive(P: Any, v: Any) -> Any:
 
 @box_lemma("T")
 @positive
-def box_definite(T: Any, M0: Any, E: Any, F: Any) -> Any:
-    """[M0 - F'T F, -E; -E', T] > 0: M0 + he(E D F) > 0 for every diagonal D with entries in [-1, 1].
-
-    For diagonal T > 0, he(E D F) >= -(E T^-1 E' + F'D T D F) and D T D <= T; the Schur complement is the condition.
-    """
-    return block([[M0 - F.T @ T @ F, -E], [T]])
-
-
-@box_lemma("T")
-@positive
 def box_hurwitz(P: Any, T: Any, M: Any, E: Any, F: Any) -> Any:
-    """[-(M'P + P M) - F'T F, -P E; -E'P, T] > 0: M + E D F is Hurwitz for every D of the box, with this one P > 0."""
+    """[-(M'P + P M) - F'T F, -P E; -E'P, T] > 0: M + E D F is Hurwitz for every D of the box, with this one P > 0.
+
+    For diagonal T > 0, he(P E D F) <= P E T^-1 E'P + F'D T D F and D T D <= T; the Schur complement is the condition.
+    """
     return block([[-he(P @ M) - F.T @ T @ F, -(P @ E)], [T]])
 
 

@@ -44,7 +44,7 @@ def rounded_point(problem: Problem, point: Mapping[str, Any], decimals: int) -> 
         x = [rational.rounded(float(value), decimals) for value in v.vector(scaled)]
         V = np.reshape(np.array(v.matrix(x), dtype=object), v.matrix_shape) * w
         if name in problem.boxes:
-            low, high = (_matrix(end) for end in problem.boxes[name])
+            low, high = (write.as_matrix(end) for end in problem.boxes[name])
             V = np.array([min(max(a, b), c) for a, b, c in zip(V.flat, low.flat, high.flat, strict=True)], dtype=object)
         V = V.reshape(v.matrix_shape)
         out[name] = V if v.shape else V[0, 0]
@@ -97,7 +97,10 @@ def point_certificate(
             for c in problem.named
         ]
     found = write.header(problem, statement, "point", says, precision, notes)
-    found |= {"matrices": matrices, "witness": {"point": {n: write.encode(_stored(x)) for n, x in exact.items()}}}
+    found |= {
+        "matrices": matrices,
+        "witness": {"point": {n: write.encode(write.as_matrix(x)) for n, x in exact.items()}},
+    }
     if bound is not None:
         unknowns = [x for n, v in problem.variables.items() for x in v.exact_vector(exact[n])]
         found["witness"]["unknowns"] = [rational.text(x) for x in unknowns]
@@ -164,7 +167,7 @@ def given_multipliers(problem: Problem, multipliers: Mapping[str, Any]) -> Multi
     if unknown:
         raise NotProvenError(f"{problem.name}: multipliers for {', '.join(sorted(unknown))}, which are no conditions")
     zero = {c.name: rational.zeros(*problem.forms[c.name].shape) for c in problem.named if c.name not in slack}
-    return Multipliers({**zero, **{n: _matrix(Z) for n, Z in multipliers.items()}}, tuple(slack))
+    return Multipliers({**zero, **{n: write.as_matrix(Z) for n, Z in multipliers.items()}}, tuple(slack))
 
 
 def multiplier_certificate(
@@ -224,11 +227,3 @@ def _accepted(problem: Problem, found: dict[str, Any]) -> dict[str, Any]:
 def objective_sense(problem: Problem) -> str:
     """ "min" or "max"."""
     return "min" if problem.objective is None else problem.objective.sense
-
-
-def _matrix(value: Any) -> np.ndarray:
-    return value if isinstance(value, np.ndarray) else np.array([[rational.rational(value)]], dtype=object)
-
-
-def _stored(value: Any) -> Any:
-    return _matrix(value)

@@ -49,17 +49,13 @@ def counts(papers: list[Paper]) -> str:
     """Return the table of verdict counts in Markdown."""
     order = [name for verdict in words.VERDICTS for name in (verdict, f"{verdict}-scan")]
     shown = [name for name in order if any(name in paper.counts for paper in papers)]
-    heads = [_label(name) for name in shown]
+    heads = [words.counted(name) for name in shown]
     lines = [_row("paper", *heads, "claims"), _row("---", *["--:"] * (len(shown) + 1))]
     for paper in papers:
         lines.append(_row(paper.key, *[str(paper.counts.get(name, 0)) for name in shown], str(len(paper.claims))))
     totals = [sum(paper.counts.get(name, 0) for paper in papers) for name in shown]
     lines.append(_row("all", *map(str, totals), str(sum(len(paper.claims) for paper in papers))))
     return "\n".join(lines)
-
-
-def _label(name: str) -> str:
-    return "erratum (may be the scan's)" if name == "erratum-scan" else words.verdict(name).label
 
 
 def _row(*cells: str) -> str:

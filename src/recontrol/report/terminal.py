@@ -53,15 +53,10 @@ def list_papers(root: Path) -> str:
     for key in papers(root):
         found = Paper(root, key)
         made = (found.results / "verdicts.json").is_file()
-        counts = ", ".join(f"{n} {label(name)}" for name, n in found.counts.items())
+        counts = ", ".join(f"{n} {words.counted(name)}" for name, n in found.counts.items())
         lines.append(f"{key:<14}{len(found.claims):>4} claims   {counts if made else 'not run yet'}")
         lines.append(f"{'':<14}{found.about.get('title', '')}")
     return plain("\n".join(lines))
-
-
-def label(name: str) -> str:
-    """Return the label of a count, errata that may be the scan's apart."""
-    return "erratum (may be the scan's)" if name == "erratum-scan" else words.verdict(name).label
 
 
 def show_paper(root: Path, key: str) -> str:

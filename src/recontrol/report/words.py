@@ -108,6 +108,11 @@ AGREES = {
 }
 
 
+def counted(name: str) -> str:
+    """Return the label of a count, errata that may be the scan's apart."""
+    return "erratum (may be the scan's)" if name == "erratum-scan" else verdict(name).label
+
+
 def verdict(name: str | None) -> Verdict:
     """Return the words for a verdict; an unknown one is shown as it is, never dropped."""
     if name in VERDICTS:

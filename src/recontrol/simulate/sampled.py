@@ -33,10 +33,6 @@ class HeldRun:
     control: Array
     samples: int
 
-    def at_instants(self) -> Array:
-        """State (n_k + 1, n_x) at the sampling instants and at the end."""
-        return self.state[:: self.samples]
-
 
 def periodic(h: float, duration: float) -> Array:
     """Equal intervals of length `h` that fill `duration`; raises ValueError if they do not fit."""
@@ -123,7 +119,10 @@ def _run(state: list[Array], control: list[Array], intervals: Sequence[float], s
 
 
 def last_outside(time: Array, error: Array, band: float) -> float | None:
-    """First sampled time after which abs(error) stays within `band` to the end; None if it never does."""
+    """First sampled time after which abs(error) stays within `band` to the end; None if it never does.
+
+    `recontrol.simulate.settling.last_exit` measures the band by each response's own peak and gives the sample before.
+    """
     outside = np.flatnonzero(np.abs(error) > band)
     if outside.size == 0:
         return float(time[0])
