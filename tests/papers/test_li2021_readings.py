@@ -10,6 +10,7 @@ from papers.li2021 import conditions as c
 from papers.li2021 import plant as pl
 from papers.li2021.readings import algebra, appendix, attitude_model, loops, support, theorems
 from recontrol.claims.identity import equal
+from recontrol.claims.values import Certified
 from recontrol.exact.rational import identity, matrix, zeros
 from recontrol.paper import load
 from recontrol.systems.generic import diag
@@ -144,7 +145,7 @@ def test_initial_state_bound_is_read_from_20(data, monkeypatch):
 
 def test_a_loop_that_decreases_under_disturbance_would_be_seen(data, monkeypatch):
     P, t = identity(12), {"A": -identity(12), "B": pl.loop(pl.plant(data), pl.controller(data, "proposed"))["B"]}
-    monkeypatch.setattr(appendix, "verified", lambda *names: True)
+    monkeypatch.setattr(appendix, "verified", lambda *names: Certified(True, "exact", ""))
     for sign, due in ((1, -1), (-1, 1)):
         monkeypatch.setattr(appendix, "_witness", lambda *_, sign=sign: (P * sign, t))
         (margin,) = appendix.invariance_disturbed(data, {}).named().values()
@@ -152,7 +153,7 @@ def test_a_loop_that_decreases_under_disturbance_would_be_seen(data, monkeypatch
 
 
 def at(**cases):
-    return {name.replace("_", "-"): {"case": case} for name, case in cases.items()}
+    return {name.replace("_", "-"): {"case": case, "says": ""} for name, case in cases.items()}
 
 
 @pytest.mark.parametrize(
@@ -164,12 +165,21 @@ def at(**cases):
         (theorems.less_conservative, at(drift_one_below="p;delta_m=0.0009")),
         (theorems.index39, at(lemma_ref39="p;gamma=20")),
         (loops.disk_robust, at(disk_drift="p;delta_m=0.01")),
+        (theorems.gains_eq17, at(eq17_empty="p;b=0.9")),
+        (theorems.gains_eq13, at(gain_diag_empty="p;delta_m=0.1", gain_r1_empty="p", gain_r2_empty="p;e2=0.1")),
+        (theorems.gains_start, at(start_printed_gamma10_empty="p;gamma=9", start_derived_empty="p")),
     ],
 )
 def test_a_certificate_of_another_case_leaves_the_claim_open(reading, certificates):
     (margin,) = reading(certificates).value.named().values()
     assert not margin > 0
     assert not margin < 0
+
+
+def test_torque_is_that_of_the_start_which_the_certificates_accept(data, monkeypatch):
+    monkeypatch.setattr(theorems, "verified", lambda *names: Certified(True, "exact", ""))
+    found = theorems.lemma4(data, at(start_times10="p;times=2", start_times100="p;times=3")).value
+    assert agrees(found)  # twice and three times the start of Table 1 stay below 2 N m
 
 
 @pytest.mark.parametrize("case", ["p;gamma=11", "p;gamma=1.36;delta_m=0.01"])

@@ -264,7 +264,7 @@ def _left_by_elimination(data: Any) -> Array:
 def _stiffness(data: Any, candidates: Mapping[str, Array]) -> Statement:
     """Whether one of the matrices can stand in F'X eta.
 
-    Margin: minus what the best of them is off, in rows and columns if none has the order of eta, else in entries of F'X.
+    The margin is minus what the best of them is off: rows and columns if none has the order of eta, else entries.
     """
     F, due = data["F"], _left_by_elimination(data)
     off = {name: sum(abs(size - len(F)) for size in X.shape) for name, X in candidates.items()}

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from typing import Any
 
 import numpy as np
@@ -28,10 +28,18 @@ def random_symmetric(rng: np.random.Generator, n: int) -> np.ndarray:
     return M + M.T
 
 
-def refuted(certificates: Mapping[str, Any], *names: str, evidence: Mapping[str, Any] | None = None) -> Result:
-    """The statement is false because these certificates hold; what they say stands in the evidence."""
-    says = {name: certificates[name]["says"] for name in names}
-    return proofs.refuted(certificates, *names, evidence={**says, **(evidence or {})})
+def refuted(
+    certificates: Mapping[str, Any], *names: str, evidence: Mapping[str, Any] | None = None, but: Sequence[str] = ()
+) -> Result:
+    """The statement is false because these certificates hold; what they say stands in the evidence.
+
+    Open if the case of one of them changes a printed scalar other than those named in ``but``.
+    """
+    shown = {name: certificates[name]["says"] for name in names} | dict(evidence or {})
+    changed = {name: changes(certificates, name).keys() - set(but) for name in names}
+    if any(changed.values()):
+        return Result(Statement(undecided()), evidence=shown)
+    return proofs.refuted(certificates, *names, evidence=shown)
 
 
 def changes(certificates: Mapping[str, Any], name: str) -> dict[str, str]:
