@@ -65,7 +65,7 @@ def fitting(claim: Claim, finding: Finding) -> Grid | None:
     return cells if [len(row) for row in cells] == [len(row) for row in rows] else None
 
 
-def distances(claim: Claim, finding: Finding) -> list[tuple[int, int, float, bool]]:
+def distances(finding: Finding) -> list[tuple[int, int, float, bool]]:
     """Return (row, column, distance in last-place units, agrees) of every compared cell, the largest first."""
     found = [
         (row, column, float(entry.get("units_in_last_place") or 0), entry.get("agrees") == "yes")
@@ -74,9 +74,9 @@ def distances(claim: Claim, finding: Finding) -> list[tuple[int, int, float, boo
     return sorted(found, key=lambda item: (-item[2], item[0], item[1]))
 
 
-def far(claim: Claim, finding: Finding) -> list[tuple[int, int, float, bool]]:
+def far(finding: Finding) -> list[tuple[int, int, float, bool]]:
     """Return the compared cells that do not agree, the largest distance first."""
-    return [item for item in distances(claim, finding) if not item[3]]
+    return [item for item in distances(finding) if not item[3]]
 
 
 def panels(claim: Claim) -> list[Panel]:
@@ -167,8 +167,8 @@ def found_text(claim: Claim, finding: Finding) -> str:
         plainly = finding.strength == "exact" and numbers.distance(cell, numbers.write_like(cell, text)) == 0
         return numbers.write_like(cell, text, 0 if plainly else GUARD)
     if counted:
-        measured = distances(claim, finding)
-        return f"{len(measured) - len(far(claim, finding))} of {len(measured)} entries agree"
+        measured = distances(finding)
+        return f"{len(measured) - len(far(finding))} of {len(measured)} entries agree"
     return cases_text(finding) if finding.cases else values.one_line(finding.value)
 
 
@@ -190,13 +190,13 @@ def compared(claim: Claim, finding: Finding) -> list[tuple[numbers.Cell, str]]:
     return [(cell, text) for cell, text in pairs if cell is not None]
 
 
-def distance_text(claim: Claim, finding: Finding) -> str:
+def distance_text(finding: Finding) -> str:
     """Return the largest distance in units of the last printed place; empty where there is none."""
     given = finding.raw.get("units_in_last_place")
     return plain(float(given)) if isinstance(given, (int, float)) else ""
 
 
-def digits_text(claim: Claim, finding: Finding) -> str:
+def digits_text(finding: Finding) -> str:
     """Return how many leading digits agree, of how many printed; for the compared cell with the fewest."""
     compared = [(e["digits"], e["digits_printed"]) for e in finding.entries.values() if e.get("digits_printed")]
     if compared:

@@ -137,8 +137,8 @@ def _shown(unit: str) -> bool:
 
 def _reading(claim: Claim, finding: Finding) -> list[str]:
     _, word = words.AGREES[finding.agrees]
-    off = present.distance_text(claim, finding)
-    digits = present.digits_text(claim, finding)
+    off = present.distance_text(finding)
+    digits = present.digits_text(finding)
     facts = [
         f"{finding.kind}: {word}",
         finding.strength or "",
