@@ -11,6 +11,7 @@ from papers.hashim2015 import analysis, certificates, identities, intervals, loo
 from papers.hashim2015.quantities.loops import enclosures, sign_overlap
 from papers.hashim2015.readings import formulas, misprints, sentences, words
 from papers.hashim2015.readings import gains as design
+from papers.hashim2015.readings import loops as loop_readings
 from papers.hashim2015.simulation import designs
 from papers.hashim2015.simulation.sweep import sweep
 from papers.hashim2015.synthesis.identifiability import row_of_52
@@ -238,3 +239,12 @@ def test_the_printed_input_weight_scales_the_weights_of_the_states():
 def test_sweep_spans_the_printed_weights():
     _, series = sweep({axis: MODEL[axis] for axis in designs.AXES}, DATA)
     assert (series["q"][0], series["q"][-1]) == pytest.approx((DATA.float("weight_low"), DATA.float("weight_high")))
+
+
+def test_error_is_driven_by_the_state_only_with_another_compensator():
+    plant, K, L = recipe.plant_of(MODEL, "yaw"), loops.printed_gain(DATA), DATA["L"]
+    due = plant.A - plant.B @ K - L @ plant.C
+    for compensator, driven in ((due, False), (due + plant.B @ K, True)):
+        M = loop_readings.in_error_states(loops.full_loop(plant, K, L, compensator))
+        assert bool((M[4:, :4] != 0).any()) is driven
+    assert not loop_readings.eq55_21(MODEL, DATA).any()

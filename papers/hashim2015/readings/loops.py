@@ -9,7 +9,7 @@ import numpy as np
 from recontrol.claims.values import Result, Size, Statement
 from recontrol.exact.ball import precision
 from recontrol.exact.polynomial import PRECISION, charpoly
-from recontrol.exact.rational import zeros
+from recontrol.exact.rational import identity, zeros
 
 from ..loops import full_loop, printed_gain, printed_gain_box
 from ..recipe import Plant, plant_of
@@ -71,9 +71,18 @@ def eq55_e16(model: Any, data: Any) -> Result:
     return Result(_embed(plant.B @ box, 0, HALF), evidence=evidence)
 
 
-def eq55_21() -> np.ndarray:
-    """The estimation error is not driven by the state."""
-    return zeros(2 * HALF, 2 * HALF)
+def in_error_states(M: np.ndarray) -> np.ndarray:
+    """A loop matrix of [x; xh] in the states [x; x - xh] of (26)."""
+    one = identity(HALF)
+    T = np.block([[one, zeros(HALF)], [one, -one]])  # its own inverse
+    return T @ M @ T
+
+
+def eq55_21(model: Any, data: Any) -> np.ndarray:
+    """What drives the estimation error from the state, in the loop of (52), (54) and the compensator A - BK - LC."""
+    plant, K, L = plant_of(model, "yaw"), printed_gain(data), data["L"]
+    loop = full_loop(plant, K, L, plant.A - plant.B @ K - L @ plant.C)
+    return _embed(in_error_states(loop)[HALF:, :HALF], HALF, 0)
 
 
 def eq55_22(model: Any, data: Any) -> Result:
