@@ -14,16 +14,19 @@ from papers.li2013.certificates.void import pattern
 from papers.li2013.derivation import quadratic_form, some_point, summands, trajectory_gap
 from papers.li2013.readings import blocks as blocks_readings
 from papers.li2013.readings import plant as readings
+from papers.li2013.readings import section4
 from papers.li2013.readings.blocks import last_term_of_27
 from papers.li2013.simulation.functional import along
 from papers.li2013.simulation.loops import SINE, loop
 from papers.li2013.simulation.nonlinear import rates
 from papers.li2013.sweeps import floats, search
 from papers.li2013.synthesis.inputs import _quadratic
+from recontrol.claims import proofs
 from recontrol.claims.identity import equal
-from recontrol.claims.values import Size, enclosure
+from recontrol.claims.values import Certified, Size, enclosure, strength_of
 from recontrol.exact import rational
 from recontrol.exact.linalg import is_positive_definite
+from recontrol.lmi.certificate import encode
 from recontrol.paper import load
 from recontrol.simulate.sampled import held_linear, held_nonlinear, periodic
 
@@ -139,6 +142,17 @@ def test_zero_terms_make_a_quadratic_form_as_a_sum_only(data):
     h22 = blocks_readings.h22_twice(data)
     assert not equal(h22.left, h22.right)
     assert equal(h22.right, h22.right.T)
+
+
+@pytest.mark.parametrize("strength", ["exact", "ball"])
+def test_thrust_bound_is_as_strong_as_its_certificate(data, monkeypatch, strength):
+    monkeypatch.setattr(proofs, "certified", lambda _: Certified(True, strength, ""))
+    certificates = {"decay-box": {"witness": {"point": {"P1": encode(rational.identity(9) * fmpq(1, 2))}}}}
+    xi0 = pr.exact_data(data, "")["xi0"]
+    model = {"exact": {"xi0": xi0}, "orbits": {"w-geo": {"equilibrium": xi0 * 0}}}
+    margins = section4.umax_certificate(data, model, certificates, "w-geo").value.margins
+    assert {strength_of(margin) for margin in margins.values()} == {strength}
+    assert all(margin == data["rho"] - fmpq(600, 2) for margin in margins.values())
 
 
 def test_sizes_follow_from_the_data(data):

@@ -11,11 +11,13 @@ from oracles import integrated_monodromy
 from papers.shi2016 import algebra, conditions, plant, problems, riccati
 from papers.shi2016.certificates import bounds, theorems
 from papers.shi2016.readings import behaviour, equations, gains, lemmas
+from papers.shi2016.readings import theorems as theorem_readings
 from papers.shi2016.simulation import measures
 from papers.shi2016.simulation.linear import Loop
 from papers.shi2016.synthesis import amplitude
 from recontrol import paper
-from recontrol.claims import identity
+from recontrol.claims import identity, proofs
+from recontrol.claims.values import Certified
 from recontrol.exact.ball import midpoint
 from recontrol.exact.linalg import is_positive_definite
 from recontrol.exact.rational import decimal, from_float
@@ -152,6 +154,14 @@ def test_misprints_are_refuted_and_their_corrections_hold():
     ):
         assert not identity.equal(wrong().left, wrong().right)
         assert identity.equal(right().left, right().right)
+
+
+@pytest.mark.parametrize("strengths", [("exact", "ball"), ("ball", "exact")])
+def test_the_tied_pair_is_as_strong_as_its_weaker_certificate(monkeypatch, strengths):
+    found = {f"tied-separate-{g}": Certified(True, s, "") for g, s in zip(("ext", "trad"), strengths, strict=True)}
+    for module in (proofs, theorem_readings):
+        monkeypatch.setattr(module, "certified", lambda certificate: certificate)
+    assert theorem_readings.tied_separate(found).value.strength == "ball"
 
 
 def dropped(condition):
