@@ -53,6 +53,14 @@ def test_verdicts_are_those_of_the_review_and_none_failed(key):
             assert finding["source"], f"{record['id']}: {finding['reading']} has no source line"
 
 
+@pytest.mark.parametrize("key", KEYS)
+def test_no_definition_contradicts_a_reproduced_claim(key):
+    """One agreeing definition carries `reproduced`: another one must not hide a condition that does not hold"""
+    for record in records(key).values():
+        said = {f["agrees"] for f in record["findings"] if f["kind"] == "definition"}
+        assert record["verdict"] != "reproduced" or said <= {"yes"}, record["id"]
+
+
 def test_every_erratum_of_the_first_paper_says_what_its_numbers_used():
     """The errata sheet gives place, print, correct form or value, proof, and this."""
     from recontrol.report.collect import Paper
