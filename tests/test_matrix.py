@@ -63,8 +63,13 @@ def test_a_job_that_ran_under_another_environment_stops_the_program(tmp_path):
     chosen = matrix.PINNED | {"threads": "2", "python": "3.11.7"}
     record = tmp_path / "run/provenance/model.json.json"
     record.parent.mkdir(parents=True)
-    record.write_text(json.dumps({"environment": chosen | {"solver": ""}}))
-    matrix.check_jobs(tmp_path, chosen)
-    record.write_text(json.dumps({"environment": chosen | {"threads": "1"}}))
-    with pytest.raises(SystemExit, match="threads"):
+    record.with_name("figure.json").write_text(json.dumps({"environment": chosen | {"solver": ""}}))
+    record.with_name("export.json").write_text("{}")
+    with pytest.raises(SystemExit, match="no job noted"):
         matrix.check_jobs(tmp_path, chosen)
+    record.write_text(json.dumps({"environment": chosen}))
+    matrix.check_jobs(tmp_path, chosen)
+    for changed_part in ({"threads": "1"}, {"solver": "SDPA"}, {"kernel": ""}):
+        record.write_text(json.dumps({"environment": chosen | changed_part}))
+        with pytest.raises(SystemExit, match=next(iter(changed_part))):
+            matrix.check_jobs(tmp_path, chosen)

@@ -39,9 +39,10 @@ KINDS = ("model", "synthesis", "certificates", "simulation", "quantities", "verd
 HEAD = """# Reproducibility across environments
 
 `make matrix` builds all papers from nothing in each environment and compares with the first, byte by byte and, for
-JSON artifacts, by the digest of their numbers rounded to six digits. The reference is Python {python}, threads:
-{threads}, kernel of OpenBLAS: {kernel}, default solver: {solver}. Every job notes these four, and a row counts only if
-all its jobs noted what the row says.
+JSON artifacts, by the digest of their numbers rounded to six digits. The reference is Python {python}, BLAS threads:
+{threads}, kernel of OpenBLAS: {kernel}, default solver: {solver}. Every job notes the first three as set for it, a
+stage also the default solver, and a row counts only if all of them noted what the row says. CLARABEL has one thread in
+all rows.
 
 | environment | claims with the same verdict | VERDICTS.md | artifacts of equal bytes | JSON artifacts of equal digits |
 |---|---|---|---|---|
@@ -109,12 +110,18 @@ def build(folder, chosen, python):
 
 
 def check_jobs(folder, chosen):
-    """Stop the program if a job of a run noted another environment than the chosen one."""
-    for path in (folder / "run/provenance").rglob("*.json"):
-        noted = json.loads(path.read_text()).get("environment", {})
-        strange = {key: value for key, value in noted.items() if value and value != chosen[key]}
+    """Stop the program if a job of a run noted another environment than the chosen one, or if none noted any.
+
+    Jobs that ask no solver note an empty one; reports and exports note nothing.
+    """
+    records = {path.name: json.loads(path.read_text()) for path in (folder / "run/provenance").rglob("*.json")}
+    noted = {name: record["environment"] for name, record in records.items() if "environment" in record}
+    if not any(found["solver"] for found in noted.values()):
+        sys.exit("matrix: no job noted its environment")
+    for name, found in noted.items():
+        strange = {k: found.get(k) for k in chosen if found.get(k) != chosen[k] and (k != "solver" or found.get(k))}
         if strange:
-            sys.exit(f"matrix: {path.name}: made under {strange}, wanted {chosen}")
+            sys.exit(f"matrix: {name}: made under {strange}, wanted {chosen}")
 
 
 def measure(name, snapshot):

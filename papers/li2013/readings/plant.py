@@ -162,7 +162,7 @@ def eq9_track(data: Any, model: Any, simulation: Any, case: str) -> Result:
 def eq20_data(data: Any) -> Statement:
     """(20) needs d_bar of finite energy: minus the mean power of y_r and of the sines of sec. 4."""
     reference = sum((y * y for y in data["y_r"].flat), fmpq(0))
-    disturbance = sum((fmpq(int(amplitude)) ** 2 for amplitude in SINE), fmpq(0)) / 2
+    disturbance = sum((a * a for a in rational.from_float(SINE)), fmpq(0)) / 2
     return Statement({"minus mean power of y_r": -reference, "minus mean power of d": -disturbance})
 
 

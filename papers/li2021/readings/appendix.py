@@ -92,6 +92,8 @@ def invariance_disturbed(data: Any, certificates: Any) -> Statement:
 
 
 def invariance_undisturbed(data: Any, certificates: Any) -> Statement:
-    """With d~ = 0 the same P decreases everywhere: -(A'P + PA) > 0."""
+    """With d~ = 0 and the same P, U is positive and decreases everywhere: P > 0 and -(A'P + PA) > 0."""
     P, t = _witness(certificates, data)
-    return Statement(pivots(-(t["A"].T @ P + P @ t["A"]), "-(A'P + PA)"))
+    margins = pivots(P, "P") | pivots(-(t["A"].T @ P + P @ t["A"]), "-(A'P + PA)")
+    proof = verified(certificates, WITNESS)
+    return Statement({name: provided(proof, margin) for name, margin in margins.items()})

@@ -75,12 +75,17 @@ def largest_margin(problem: Problem, **options: Any) -> Solution:
 def centre(problem: Problem, start: Mapping[str, Any]) -> tuple[dict[str, Any], Centre]:
     """Analytic centre of all conditions of a problem from a strictly feasible point, in original units.
 
+    Raises NoPointError that names the problem if Newton's method does not get there.
+
     Scaling of the unknowns only helps the arithmetic: the centre does not depend on it.
     """
     units = to_float(np.array(problem.unknown_units, dtype=object))
     constants, coefficients = float_forms(problem, units)
     x0 = np.concatenate([v.vector(np.reshape(start[n], v.matrix_shape)) for n, v in problem.variables.items()]) / units
-    found = analytic_centre(constants, coefficients, x0)
+    try:
+        found = analytic_centre(constants, coefficients, x0)
+    except ValueError as error:
+        raise NoPointError(f"{problem.name}, {problem.case}: {error}") from None
     x = found.x * units
     out: dict[str, Any] = {}
     for name, v in problem.variables.items():

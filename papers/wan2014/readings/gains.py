@@ -6,7 +6,7 @@ from typing import Any
 
 import numpy as np
 
-from recontrol.claims.proofs import located, verified
+from recontrol.claims.proofs import accepted, located, verified
 from recontrol.claims.values import Approx, Result
 from recontrol.exact import rational
 from recontrol.lmi import verify
@@ -69,11 +69,14 @@ def optimum(synthesis: Any) -> Result:
 def which_start(synthesis: Any) -> Result:
     """Smallest V(0) over the boxes for each e(0) against the largest rho that (31) allows.
 
-    (30) does not bind at the largest rho, so that leaving it out gives the same optimum: what two solves of it differ
-    by is the solver's error, here taken a hundredfold, and no less than its relative tolerance.
+    If (30) does not bind at the largest rho, leaving it out gives the same optimum: what two solves of it differ by is
+    then the solver's error, here taken a hundredfold, and no less than its relative tolerance. ValueError if they
+    differ by more, since (30) then binds.
     """
     found = synthesis["digits"]
     largest, again = float(found["rho_high_limits_only"]), float(found["rho_high"])
+    if abs(largest - again) > 100 * SOLVER_TOLERANCE * largest:
+        raise ValueError(f"(30) binds at the largest rho: {again:.10g} with it, {largest:.10g} without")
     error = max(100 * abs(largest - again), SOLVER_TOLERANCE * largest)
     rows = {case: dict(found[case]) for case in ("e0_zero", "e0_velocity", "e0_full")}
     return Result(Approx(largest, error), rows)
@@ -82,6 +85,7 @@ def which_start(synthesis: Any) -> Result:
 def cost_bounds(synthesis: Any, simulation: Any, certificates: Any) -> Result:
     """Certified and float bounds of J against the simulated worst J of the linear model, per e(0)."""
     cost_unit, rows = float(rational.to_float(Scale.cost)), {}
+    accepted(certificates, "cost_e0_zero", "cost_e0_velocity", "cost_e0_full")
     for case in ("e0_zero", "e0_velocity", "e0_full"):
         certificate = certificates[f"cost_{case}"]
         proven = float(rational.to_float(verify.number(certificate["bound"]["value"]))) * cost_unit

@@ -50,7 +50,8 @@ def make_batch(data: Any, model: Any, runs: list[dict[str, Any]]) -> Batch:
 def last_above(times: Array, values: Array, level: float) -> float | None:
     """Last time [s] at which `values` exceeds `level`; 0 if never, None if still at the end.
 
-    Interpolated, since the samples of a run lie up to 10 s apart: `recontrol.simulate` has the same for whole samples.
+    Interpolated, since the samples of a run lie up to 10 s apart; `recontrol.simulate.sampled.last_outside` gives the
+    sample after the last one outside, of a dense run.
     """
     above = np.flatnonzero(values > level)
     if not above.size:
