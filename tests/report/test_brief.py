@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from recontrol.report import brief
+from recontrol.report import brief, present
 from recontrol.report.claim import Claim
 
 
@@ -36,3 +36,13 @@ def test_margins_are_told_only_where_they_refute_beyond_rounding():
     refuted.strength = "exact"
     refuted.decisive.agrees = "no"
     assert brief.found(refuted) == "gap = -0.1335; other = -2"
+
+
+def test_a_case_that_disagrees_as_an_interval_is_marked_beside_the_print():
+    cases = {"a": {"agrees": "yes", "value": "190"}, "b": {"agrees": "no", "value": "251.19"}}
+    printed, found = present.panels(claim("range", "200", cases=cases))
+    assert (found.agreeing, found.counted) == (0, 1)
+    assert found.rows[0][0].pieces == [("2", False), ("51", True)]
+    assert printed.rows[0][0].pieces == [("2", False), ("00", True)]
+    cases["b"]["agrees"] = "yes"
+    assert present.panels(claim("range", "200", cases=cases))[1].agreeing == 1

@@ -27,8 +27,8 @@ def found(claim: Claim) -> str:
     finding = claim.decisive
     if finding is None or claim.verdict == "unspecified":
         return ""
-    if len({case.get("agrees") for _, case in finding.cases}) > 1:
-        return present.cases_text(finding)  # one value would be that of a case which may not be the one that decides
+    if present.mixed(finding):
+        return present.cases_text(finding)
     compared = present.compared(claim, finding)
     if 0 < len(compared) <= 4:
         # The places of a printed limit say nothing about what was found.

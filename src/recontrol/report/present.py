@@ -113,7 +113,8 @@ def _found_panel(claim: Claim, finding: Finding) -> Panel:
             counted = cell is not None and is_counted(claim, i, j)
             differs = counted and _differs(finding, i, j)
             agreeing, total = agreeing + (counted and not differs), total + counted
-            rows[-1].append(_cell_view(cell, text, counted, finding.entries.get((i + 1, j + 1)) if differs else None))
+            entry = finding.entries.get((i + 1, j + 1), {})
+            rows[-1].append(_cell_view(cell, text, counted, entry if differs else None))
     rows, place = _cropped(rows)
     return Panel(finding.name, finding, rows, place, agreeing, total)
 
@@ -139,8 +140,8 @@ def is_counted(claim: Claim, i: int, j: int) -> bool:
 
 
 def _differs(finding: Finding, i: int, j: int) -> bool:
-    entry = finding.entries.get((i + 1, j + 1))
-    return entry is not None and entry.get("agrees") != "yes"
+    entry = finding.entries.get((i + 1, j + 1), {} if finding.entries else finding.shown)
+    return entry.get("agrees", "yes") != "yes"
 
 
 def _cell_view(cell: numbers.Cell | None, text: str, counted: bool, differing: dict[str, Any] | None) -> CellView:
@@ -153,7 +154,8 @@ def _cell_view(cell: numbers.Cell | None, text: str, counted: bool, differing: d
         if shown != printed:
             break
         shown = numbers.write_like(cell, text, extra)
-    words = f"{plain(float(differing.get('units_in_last_place') or 0))} units of the last place from the print"
+    units = differing.get("units_in_last_place")
+    words = f"{plain(float(units))} units of the last place from the print" if units else ""
     return CellView(numbers.mark(shown, printed), counted, words)
 
 
@@ -161,6 +163,8 @@ def found_text(claim: Claim, finding: Finding) -> str:
     """Return what a reading found in one line."""
     if finding.error:
         return finding.error.strip().splitlines()[0]
+    if mixed(finding):
+        return cases_text(finding)
     counted = compared(claim, finding)
     if len(counted) == 1:
         cell, text = counted[0]
@@ -170,6 +174,11 @@ def found_text(claim: Claim, finding: Finding) -> str:
         measured = distances(finding)
         return f"{len(measured) - len(far(finding))} of {len(measured)} entries agree"
     return cases_text(finding) if finding.cases else values.one_line(finding.value)
+
+
+def mixed(finding: Finding) -> bool:
+    """Say whether cases of a reading disagree: one value would be that of a case which may not be the deciding one."""
+    return len({case.get("agrees") for _, case in finding.cases}) > 1
 
 
 def cases_text(finding: Finding) -> str:
