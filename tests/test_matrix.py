@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import copy
 import json
+import platform
 import sys
 
 import pytest
@@ -73,3 +74,17 @@ def test_a_job_that_ran_under_another_environment_stops_the_program(tmp_path):
         record.write_text(json.dumps({"environment": chosen | changed_part}))
         with pytest.raises(SystemExit, match=next(iter(changed_part))):
             matrix.check_jobs(tmp_path, chosen)
+
+
+def test_every_job_notes_its_threads_kernel_and_python(fresh_toy, monkeypatch):
+    """Snakemake sets the thread variables of a job itself; the project's own variable counts."""
+    monkeypatch.setenv("RECONTROL_THREADS", "2")
+    monkeypatch.setenv("OPENBLAS_CORETYPE", "Sandybridge")
+    project = fresh_toy("threads")
+    project.snakemake("results/toy2024/synthesis/gain.json")
+    for name in ("model", "synthesis/gain"):
+        noted = json.loads((project.folder / f"run/provenance/results/toy2024/{name}.json.json").read_text())[
+            "environment"
+        ]
+        assert (noted["threads"], noted["kernel"]) == ("2", "Sandybridge")
+        assert noted["python"] == platform.python_version()

@@ -5,7 +5,6 @@ from __future__ import annotations
 import inspect
 import json
 import os
-import platform
 import re
 import signal
 import time
@@ -386,17 +385,3 @@ def test_what_is_remembered_of_imports_goes_by_content(tmp_path, monkeypatch):
     assert list(closure._memory().values()) == [[(0, "a", [])]]
     assert closure._statements(b"import b") == [(0, "b", [])]
     closure._memory.cache_clear()
-
-
-def test_every_job_notes_its_threads_kernel_and_python(fresh_toy, monkeypatch):
-    """Snakemake sets the thread variables of a job itself; the project's own variable counts."""
-    monkeypatch.setenv("RECONTROL_THREADS", "2")
-    monkeypatch.setenv("OPENBLAS_CORETYPE", "Sandybridge")
-    project = fresh_toy("threads")
-    project.snakemake("results/toy2024/synthesis/gain.json")
-    for name in ("model", "synthesis/gain"):
-        noted = json.loads((project.folder / f"run/provenance/results/toy2024/{name}.json.json").read_text())[
-            "environment"
-        ]
-        assert (noted["threads"], noted["kernel"]) == ("2", "Sandybridge")
-        assert noted["python"] == platform.python_version()

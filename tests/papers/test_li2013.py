@@ -17,7 +17,7 @@ from papers.li2013.readings import plant as readings
 from papers.li2013.readings import section4
 from papers.li2013.readings.blocks import last_term_of_27
 from papers.li2013.simulation.functional import along
-from papers.li2013.simulation.loops import SINE, loop
+from papers.li2013.simulation.loops import floats_sine, loop
 from papers.li2013.simulation.nonlinear import rates
 from papers.li2013.sweeps import floats, search
 from papers.li2013.synthesis.inputs import _quadratic
@@ -237,9 +237,9 @@ def test_search_brackets_the_change_of_sign():
 
 def test_sine_leaves_the_bounded_residual_of_its_response(data):
     # amplitude of the steady response: continuous approximation of the sampled loop, within a quarter (hold of 0.5 s)
-    run = loop(data, "w-print", np.zeros(3), SINE, 200.0)
+    run = loop(data, "w-print", np.zeros(3), floats_sine(data), 200.0)
     v = floats(data, "")
     A = v["A_print"] + v["B"] @ v["K"]
-    response = np.linalg.solve(2j * np.eye(9) - A, v["B"] @ SINE)
+    response = np.linalg.solve(2j * np.eye(9) - A, v["B"] @ floats_sine(data))
     late = np.abs(run.state[run.time > 180, 2]).max()
     assert late == pytest.approx(abs(response[2]), rel=0.25)

@@ -13,7 +13,6 @@ from recontrol.exact.ball import precision
 
 from .. import problems as pr
 from ..model import slow_pairs
-from ..simulation.loops import SINE
 
 
 def s4_w_radius(model: Any) -> Any:
@@ -162,7 +161,7 @@ def eq9_track(data: Any, model: Any, simulation: Any, case: str) -> Result:
 def eq20_data(data: Any) -> Statement:
     """(20) needs d_bar of finite energy: minus the mean power of y_r and of the sines of sec. 4."""
     reference = sum((y * y for y in data["y_r"].flat), fmpq(0))
-    disturbance = sum((a * a for a in rational.from_float(SINE)), fmpq(0)) / 2
+    disturbance = sum((a * a for a in data["sine"].flat), fmpq(0)) / 2
     return Statement({"minus mean power of y_r": -reference, "minus mean power of d": -disturbance})
 
 

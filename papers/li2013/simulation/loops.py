@@ -19,7 +19,6 @@ from recontrol.simulate.sampled import (
 from ..sweeps import floats
 
 DURATION, SAMPLES = 200.0, 20
-SINE = np.array([2.0, -2.0, -2.0])  # N, amplitudes of sec. 4 at 2 rad/s
 AXES = "xyz"
 
 
@@ -77,7 +76,7 @@ def cross_checks(data: Any) -> dict[str, float]:
     """Largest difference of the state [SI] over 60 s to two integrators restarted at each instant (w-print, sine)."""
     v = floats(data, "")
     y_r = floats_y(data)
-    A, B, K, start = generator(v, "A_print", y_r, SINE)
+    A, B, K, start = generator(v, "A_print", y_r, floats_sine(data))
     intervals = periodic(v["h"], 60.0)
     exact = held_linear(A, B, K, start, intervals, SAMPLES)
     out = {}
@@ -95,16 +94,21 @@ def floats_y(data: Any) -> np.ndarray:
     return np.asarray(data.float("y_r"), dtype=float)[0]
 
 
+def floats_sine(data: Any) -> np.ndarray:
+    """Amplitudes (3,) [N] of the disturbance of sec. 4, sines at 2 rad/s."""
+    return np.asarray(data.float("sine"), dtype=float)[0]
+
+
 def loops(data: Any) -> tuple[dict[str, Any], dict[str, np.ndarray]]:
     """values: metrics -> "orbit reference disturbance" -> numbers, checks; series: time, instants, and state and
     control of each run.
     """
-    hold, none = floats_y(data), np.zeros(3)
+    hold, sine, none = floats_y(data), floats_sine(data), np.zeros(3)
     cases = {
         "w-print hold none": ("w-print", hold, none),
-        "w-print hold sine": ("w-print", hold, SINE),
+        "w-print hold sine": ("w-print", hold, sine),
         "w-geo hold none": ("w-geo", hold, none),
-        "w-geo hold sine": ("w-geo", hold, SINE),
+        "w-geo hold sine": ("w-geo", hold, sine),
         "w-print zero none": ("w-print", none, none),
         "w-geo zero none": ("w-geo", none, none),
     }

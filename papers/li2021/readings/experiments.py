@@ -9,6 +9,8 @@ import numpy as np
 
 from recontrol.claims.values import Approx, Result, Statement
 
+from ..simulation.random_gains import number_of_seeds
+
 # The integrators of part `integrators` agree to 1e-9 of the states; torques are states times gains of about 20.
 STATE_ERROR, TORQUE_ERROR = 1e-8, 1e-6
 LISTED = ("offset",)
@@ -92,7 +94,7 @@ def smaller_region(simulation: Any, config: Any) -> Result:
         }
         for case, cell in table.items()
     }
-    seeds = int(config.get("li2021", {}).get("seeds", 10))
+    seeds = number_of_seeds(config)
     share = sum(cell["proposed-smaller"] for cell in table.values()) / (seeds * len(table))
     return Result(Approx(share, 1e-12), evidence={"amplitude/hold time [s]": rows})
 

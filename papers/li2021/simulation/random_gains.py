@@ -52,9 +52,14 @@ class Held:
         return self.value
 
 
+def number_of_seeds(config: Any) -> int:
+    """Seeds of a cell: ten, unless the configuration says otherwise."""
+    return int(config.get("li2021", {}).get("seeds", 10))
+
+
 def draws(data: Any, config: Any) -> tuple[dict[str, Any], dict[str, Array]]:
     """S4 for both controllers, amplitudes 1 and 0.05, six hold times: the same draws for both controllers."""
-    seeds = int(config.get("li2021", {}).get("seeds", 10))
+    seeds = number_of_seeds(config)
     uniform = table(seeds)
     count = uniform.shape[2]
     groups = [(name, amplitude) for name in PRINTED for amplitude in AMPLITUDES]
